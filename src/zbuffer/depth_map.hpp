@@ -29,10 +29,12 @@ struct DepthMap {
 /// on a shared edge belongs to exactly one of the two) get its depth at the centre.  Existing content takes part in the depth test.
 /// Both windings are drawn: a scan's faces are not always oriented.
 /// \param points  x, y in pixel coordinates of the map, z = distance from (p), smaller is nearer
-/// \param faces   indices into points; those with a non-finite corner are skipped
+/// \param faces   indices into points; those with a corner that is not finite, or more than 524288 pixels from
+///                the map's origin in x or y, are skipped
 void draw(std::span<const glm::vec3> points, std::span<const glm::uvec3> faces, DepthMap& map);
 
-/// The same by testing every pixel against every triangle in double precision: the reference for tests.
+/// The same by testing every pixel against every triangle, depths in double precision: the reference for tests.
+/// Both decide coverage on one grid of 1/1024 pixel in exact integers, so they cover exactly the same pixels.
 void draw_reference(std::span<const glm::vec3> points, std::span<const glm::uvec3> faces, DepthMap& map);
 
 /// The map with its u axis turned round: d2(i, j) = Z2(Nu - 1 - i, j).  \source papaioannou 2002, eq. (10b)
