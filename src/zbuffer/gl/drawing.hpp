@@ -1,0 +1,63 @@
+/// The two ways in which a GPU turns poses into records.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "zbuffer/gl/engine.hpp"
+
+namespace rejoin::zbuffer::gl {
+
+/// What is drawn of a mesh.
+struct Surface {
+  std::span<const glm::vec3> vertices;  ///< mesh units, relative to the mesh's origin
+  std::vector<glm::uvec3> faces;        ///< without those that have a non-finite corner
+};
+
+/// (x, y in pixels, depth in mesh units) = rows * (corner, 1).
+struct Placement {
+  glm::vec4 x;
+  glm::vec4 y;
+  glm::vec4 depth;
+};
+
+struct PairPlacement {
+  Placement a;
+  Placement b;
+};
+
+/// What comes back for a pose, as in shaders/compare.glsl.
+struct Record {
+  float sum;  ///< depth in mesh units, per pixel step
+  std::uint32_t overlap;
+  std::uint32_t covered_a;
+  std::uint32_t covered_b;
+};
+
+/// Scores one pair of meshes.  Every member is called, and the object made and destroyed, inside an
+/// Engine::Session.
+class Drawing {
+ public:
+  virtual ~Drawing() = default;
+  /// records.size() == poses.size()
+  virtual void score(std::span<const PairPlacement> poses, std::span<Record> records) = 0;
+  /// Depths of both maps in mesh units, NaN = background, as rendered.
+  virtual std::pair<std::vector<float>, std::vector<float>> depths(const PairPlacement& pose) = 0;
+};
+
+/// Everything in one compute dispatch: rasteriser, mirror, differences, sums.
+/// \param in_shared_memory  keep the maps there; \pre fits_shared_memory
+std::unique_ptr<Drawing> make_compute_drawing(Engine& engine, const Surface& a, const Surface& b,
+                                              int resolution, bool in_shared_memory);
+bool fits_shared_memory(const Limits& limits, int resolution);
+
+/// The fixed pipeline draws many poses into the tiles of one float target; a compute shader then reduces
+/// every pair of tiles.
+std::unique_ptr<Drawing> make_pipeline_drawing(Engine& engine, const Surface& a, const Surface& b,
+                                               int resolution);
+
+}  // namespace rejoin::zbuffer::gl

@@ -1,0 +1,116 @@
+#include "zbuffer/gl/gl_scorer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/error.hpp"
+#include "zbuffer/detail/view.hpp"
+#include "zbuffer/gl/drawing.hpp"
+
+namespace rejoin::zbuffer::gl {
+namespace {
+
+Surface surface_of(const mesh::Mesh& mesh) {
+  Surface surface{mesh.vertices, {}};
+  const auto finite = [&](std::uint32_t index) {
+    const glm::vec3& v = mesh.vertices[index];
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+  };
+  std::copy_if(mesh.faces.begin(), mesh.faces.end(), std::back_inserter(surface.faces),
+               [&](const glm::uvec3& face) { return finite(face.x) && finite(face.y) && finite(face.z); });
+  return surface;
+}
+
+Placement placement(const detail::Projection& projection) {
+  const auto row = [&](int r) {
+    return glm::vec4(projection.linear[0][r], projection.linear[1][r], projection.linear[2][r],
+                     projection.offset[r]);
+  };
+  return {row(0), row(1), row(2)};
+}
+
+PairScore score_of(const Record& record, double view_side) {
+  PairScore score;
+  score.overlap = static_cast<int>(record.overlap);
+  score.covered_a = static_cast<int>(record.covered_a);
+  score.covered_b = static_cast<int>(record.covered_b);
+  if (record.overlap > 0) score.error = static_cast<float>(record.sum / (record.overlap * view_side));
+  return score;
+}
+
+class GlScorer : public Scorer {
+ public:
+  GlScorer(std::shared_ptr<Engine> engine, Backend backend, const ViewOptions& options)
+      : engine_(std::move(engine)), backend_(backend), options_(options) {}
+  ~GlScorer() override {
+    try {
+      const Engine::Session session(*engine_);
+      drawing_.reset();
+    } catch (const BackendError&) {
+      // The context is gone and its objects with it.
+    }
+  }
+
+  void load(const mesh::Mesh& a, const mesh::Mesh& b, Path path) {
+    const Engine::Session session(*engine_);
+    const Surface surface_a = surface_of(a);
+    const Surface surface_b = surface_of(b);
+    const bool fits = fits_shared_memory(engine_->limits(), options_.resolution);
+    if (path == Path::ComputeShared && !fits) {
+      throw BackendError(engine_->context().subject(), "the depth maps do not fit into shared memory",
+                         "choose a smaller --resolution");
+    }
+    if (path == Path::Pipeline) {
+      drawing_ = make_pipeline_drawing(*engine_, surface_a, surface_b, options_.resolution);
+    } else {
+      drawing_ = make_compute_drawing(*engine_, surface_a, surface_b, options_.resolution,
+                                      fits && path != Path::ComputeBuffer);
+    }
+  }
+
+  void score(std::span<const ViewPair> poses, std::span<PairScore> scores) override {
+    std::vector<PairPlacement> placements(poses.size());
+    std::transform(poses.begin(), poses.end(), placements.begin(),
+                   [&](const ViewPair& pose) { return place(pose); });
+    std::vector<Record> records(poses.size());
+    {
+      const Engine::Session session(*engine_);
+      drawing_->score(placements, records);
+    }
+    std::transform(records.begin(), records.end(), scores.begin(),
+                   [&](const Record& record) { return score_of(record, options_.view_side); });
+  }
+
+  std::pair<DepthMap, DepthMap> depth_maps(const ViewPair& pose) override {
+    std::pair<DepthMap, DepthMap> maps{DepthMap(options_.resolution, options_.resolution),
+                                       DepthMap(options_.resolution, options_.resolution)};
+    const Engine::Session session(*engine_);
+    std::tie(maps.first.depth, maps.second.depth) = drawing_->depths(place(pose));
+    return maps;
+  }
+
+  Backend backend() const override { return backend_; }
+  std::string renderer() const override { return engine_->context().renderer(); }
+
+ private:
+  PairPlacement place(const ViewPair& pose) const {
+    return {placement(detail::projection_a(pose, options_)), placement(detail::projection_b(pose, options_))};
+  }
+
+  std::shared_ptr<Engine> engine_;
+  Backend backend_;
+  ViewOptions options_;
+  std::unique_ptr<Drawing> drawing_;
+};
+
+}  // namespace
+
+std::unique_ptr<Scorer> make_gl_scorer(std::shared_ptr<Engine> engine, Backend backend, const mesh::Mesh& a,
+                                       const mesh::Mesh& b, const ViewOptions& options, Path path) {
+  auto scorer = std::make_unique<GlScorer>(std::move(engine), backend, detail::completed(a, b, options));
+  scorer->load(a, b, path);
+  return scorer;
+}
+
+}  // namespace rejoin::zbuffer::gl
