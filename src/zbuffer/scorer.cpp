@@ -59,7 +59,7 @@ std::unique_ptr<Scorer> make_scorer(Backend backend, const mesh::Mesh& a, const 
     case Backend::OsMesa:
       return make_gl(backend, a, b, complete);
     case Backend::RayCast:
-      throw BackendError("raycast", "not built", "choose raster");
+      return detail::make_raycast(a, b, complete);
     case Backend::Reference:
       return detail::make_reference(a, b, complete);
     case Backend::Auto:
@@ -73,6 +73,7 @@ std::vector<BackendInfo> list_backends() {
   return {probe_gl(Backend::Gpu),
           probe_gl(Backend::OsMesa),
           {Backend::Raster, true, detail::raster_renderer(), ""},
+          {Backend::RayCast, true, detail::raycast_renderer(), ""},
           {Backend::Reference, true, detail::reference_renderer(), ""}};
 }
 

@@ -1,6 +1,7 @@
 #include "zbuffer/detail/fixed_triangle.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace rejoin::zbuffer::detail {
 namespace {

@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
-#include <utility>
+
+#include "zbuffer/detail/canvas.hpp"
 
 namespace rejoin::zbuffer::detail {
 
@@ -51,13 +52,6 @@ constexpr std::int64_t centre_of(std::int64_t i) {
 /// Snaps to the grid; nullopt for a triangle that covers nothing: no area, a corner that is not finite or out
 /// of reach.
 std::optional<FixedTriangle> snap(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
-
-/// A row-major map under construction; pixels that nothing covers hold a value that no depth is below.
-struct Canvas {
-  float* depth;
-  int width;
-  int height;
-};
 
 /// Draws one triangle, row by row, nearest depth wins.
 void fill(const FixedTriangle& triangle, const Canvas& canvas);
