@@ -9,14 +9,14 @@ namespace rejoin::mesh {
 
 /// A triangle mesh, or an oriented point cloud when `faces` is empty.
 ///
-/// Vertices are stored relative to `origin`, so that scans far from the origin keep their precision: the file's
-/// coordinates are origin + vertices[i].  Open, non-manifold and unconnected surfaces are normal.
+/// Vertices are stored relative to `origin`, so that scans far from the origin keep their precision: the
+/// file's coordinates are origin + vertices[i].  Open, non-manifold and unconnected surfaces are normal.
 struct Mesh {
   glm::dvec3 origin{0.0};
-  std::vector<glm::vec3> vertices;      ///< mesh units, relative to origin
-  std::vector<glm::vec3> normals;       ///< unit length, one a vertex; may be empty for a mesh, never for a cloud
-  std::vector<glm::uvec3> faces;        ///< counter-clockwise seen from outside; empty for a cloud
-  std::vector<glm::u8vec3> colours;     ///< sRGB, one a vertex, or empty
+  std::vector<glm::vec3> vertices;  ///< mesh units, relative to origin
+  std::vector<glm::vec3> normals;   ///< unit length, one a vertex; may be empty for a mesh, never for a cloud
+  std::vector<glm::uvec3> faces;    ///< counter-clockwise seen from outside; empty for a cloud
+  std::vector<glm::u8vec3> colours;  ///< sRGB, one a vertex, or empty
 
   bool is_cloud() const { return faces.empty(); }
 };
@@ -33,11 +33,12 @@ Box bounds(const Mesh& mesh);
 /// Area-weighted centroid of the surface (of the points, for a cloud), relative to mesh.origin.
 glm::dvec3 centroid(const Mesh& mesh);
 
-/// Diameter: the largest distance between two vertices, found to within 1 % (never above the true value by more than
-/// rounding), mesh units.
+/// Diameter: the largest distance between two vertices, found to within 1 % (never above the true value by
+/// more than rounding), mesh units.
 double diameter(const Mesh& mesh);
 
-/// Typical spacing of the samples: median edge length of a mesh, median distance to the nearest neighbour of a cloud.
+/// Typical spacing of the samples: median edge length of a mesh, median distance to the nearest neighbour of
+/// a cloud.
 double resolution(const Mesh& mesh);
 
 /// Total area of the faces, squared mesh units; 0 for a cloud.

@@ -13,16 +13,17 @@ namespace rejoin::mesh {
 /// A mesh at a pose in a scene file.
 struct Placed {
   std::string name;
-  const Mesh* mesh;   ///< not owned, not null
-  Rigid pose;         ///< file coordinates -> common frame
+  const Mesh* mesh;  ///< not owned, not null
+  Rigid pose;        ///< file coordinates -> common frame
 };
 
-/// Writes one mesh in its file coordinates; the extension (.ply, .obj, .glb, .drc) chooses the format.  The file
-/// appears whole or not at all (written beside and renamed).
-/// \throws InputError unknown extension   \throws IoError the file cannot be written
+/// Writes one mesh in its file coordinates; the extension (.ply, .obj, .glb, .drc) chooses the format.  The
+/// file appears whole or not at all (written beside and renamed). \throws InputError unknown extension
+/// \throws IoError the file cannot be written
 void save(const std::filesystem::path& path, const Mesh& mesh);
 
-/// Writes several placed meshes: .glb gives one named node a mesh, with its transform; .ply and .obj give one merged mesh.
+/// Writes several placed meshes: .glb gives one named node a mesh, with its transform; .ply and .obj give one
+/// merged mesh.
 void save_scene(const std::filesystem::path& path, const std::vector<Placed>& parts);
 
 }  // namespace rejoin::mesh

@@ -1,0 +1,168 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "mesh/detail/orient.hpp"
+#include "mesh/detail/soup.hpp"
+#include "mesh/detail/triangulate.hpp"
+#include "mesh/detail/weld.hpp"
+
+namespace rejoin::mesh::detail {
+namespace {
+
+bool is_finite(const glm::dvec3& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+void check_points(const Soup& soup, const std::string& name) {
+  if (soup.points.empty()) throw InputError(name, "has no vertices", "export the scan again");
+  // Coordinates end up as floats: what overflows one is as bad as an infinity.
+  constexpr double kLargest = 1e30;
+  for (std::size_t i = 0; i < soup.points.size(); ++i) {
+    const glm::dvec3& p = soup.points[i];
+    if (is_finite(p) && glm::all(glm::lessThan(glm::abs(p), glm::dvec3(kLargest)))) continue;
+    throw InputError(name, fmt::format("vertex {} is not a finite point ({}, {}, {})", i, p.x, p.y, p.z),
+                     "remove it in the scanning software");
+  }
+}
+
+void check_corners(const Soup& soup, const std::string& name) {
+  std::size_t at = 0;
+  for (std::size_t face = 0; face < soup.sizes.size(); ++face) {
+    for (std::uint32_t k = 0; k < soup.sizes[face]; ++k, ++at) {
+      if (soup.corners[at] < soup.points.size()) continue;
+      throw InputError(name,
+                       fmt::format("face {} refers to a vertex that does not exist (there are {})", face,
+                                   soup.points.size()),
+                       "export the scan again");
+    }
+  }
+}
+
+/// The point that coordinates are stored relative to: zero for a scan near the origin, so that its floats
+/// stay as they are, else the box's centre on a coarse binary grid, so that subtracting it from float
+/// coordinates is exact.
+glm::dvec3 choose_origin(const std::vector<glm::dvec3>& points) {
+  glm::dvec3 low = points.front();
+  glm::dvec3 high = low;
+  for (const glm::dvec3& point : points) {
+    low = glm::min(low, point);
+    high = glm::max(high, point);
+  }
+  const double size = glm::length(high - low);
+  const glm::dvec3 furthest = glm::max(glm::abs(low), glm::abs(high));
+  if (size <= 0 || std::max({furthest.x, furthest.y, furthest.z}) <= 4 * size) return glm::dvec3(0.0);
+  const double grid = std::exp2(std::floor(std::log2(size)));
+  return glm::round((low + high) / (2 * grid)) * grid;
+}
+
+Mesh to_mesh(const Soup& soup) {
+  Mesh mesh;
+  mesh.origin = choose_origin(soup.points);
+  mesh.vertices.reserve(soup.points.size());
+  for (const glm::dvec3& point : soup.points) mesh.vertices.emplace_back(point - mesh.origin);
+  mesh.normals = soup.normals;
+  mesh.colours = soup.colours;
+  mesh.faces = triangulate(soup);
+  return mesh;
+}
+
+/// Makes normals unit length; false if one is zero or not finite.
+bool normalize_all(std::vector<glm::vec3>& normals) {
+  bool good = true;
+  for (glm::vec3& normal : normals) {
+    const double length = glm::length(glm::dvec3(normal));
+    if (length > 0 && std::isfinite(length)) {
+      normal = glm::vec3(glm::dvec3(normal) / length);
+    } else {
+      good = false;
+    }
+  }
+  return good;
+}
+
+void clean_faces(Loaded& loaded, const std::string& name) {
+  Mesh& mesh = loaded.mesh;
+  const std::size_t before = mesh.faces.size();
+  const Dropped dropped = drop_useless_faces(mesh);
+  if (mesh.faces.empty()) {
+    throw InputError(name, fmt::format("none of its {} faces has an area", before), "export the scan again");
+  }
+  if (dropped.degenerate > 0) {
+    loaded.warnings.push_back(
+        fmt::format("{}: dropped {} of {} faces that have no area", name, dropped.degenerate, before));
+  }
+  if (dropped.duplicate > 0) {
+    loaded.warnings.push_back(
+        fmt::format("{}: dropped {} of {} faces that are there twice", name, dropped.duplicate, before));
+  }
+  drop_unused_vertices(mesh);
+  const Turned turned = orient_faces(mesh);
+  if (turned.inconsistent > 0) {
+    loaded.warnings.push_back(
+        fmt::format("{}: turned {} of {} faces that were wound against their neighbours", name,
+                    turned.inconsistent, before));
+  }
+  if (turned.inside_out) {
+    loaded.warnings.push_back(fmt::format("{}: was inside out, turned all faces", name));
+    for (glm::vec3& normal : mesh.normals) normal = -normal;
+  }
+  if (!mesh.normals.empty() && !normalize_all(mesh.normals)) compute_normals(mesh);
+}
+
+/// Whether all points lie on one line.
+bool is_line(const std::vector<glm::vec3>& points) {
+  const glm::dvec3 start(points.front());
+  glm::dvec3 along(0.0);
+  for (const glm::vec3& point : points) {
+    const glm::dvec3 step = glm::dvec3(point) - start;
+    if (glm::dot(step, step) > glm::dot(along, along)) along = step;
+  }
+  const double limit = 1e-6 * glm::dot(along, along);
+  return std::all_of(points.begin(), points.end(), [&](const glm::vec3& point) {
+    return glm::length(glm::cross(glm::dvec3(point) - start, along)) <= limit;
+  });
+}
+
+void clean_cloud(Loaded& loaded, const std::string& name) {
+  Mesh& mesh = loaded.mesh;
+  if (is_line(mesh.vertices)) {
+    throw InputError(name, fmt::format("its {} points span no area", mesh.vertices.size()),
+                     "export the scan again");
+  }
+  if (mesh.normals.empty()) {
+    loaded.warnings.push_back(name +
+                              ": points have no normals, estimated them (export normals for a surer result)");
+    mesh.normals = estimate_normals(mesh.vertices);
+  } else if (!normalize_all(mesh.normals)) {
+    loaded.warnings.push_back(
+        name +
+        ": some points have no usable normal, estimated all normals (export normals for a surer result)");
+    mesh.normals = estimate_normals(mesh.vertices);
+  }
+}
+
+}  // namespace
+
+Loaded clean(const Soup& soup, const std::string& name) {
+  check_points(soup, name);
+  check_corners(soup, name);
+  Loaded loaded;
+  loaded.mesh = to_mesh(soup);
+  const bool cloud = soup.sizes.empty();
+  if (!cloud && loaded.mesh.faces.empty()) {
+    throw InputError(name, fmt::format("none of its {} faces has three corners", soup.sizes.size()),
+                     "export the scan again");
+  }
+  weld(loaded.mesh);
+  if (cloud) {
+    clean_cloud(loaded, name);
+  } else {
+    clean_faces(loaded, name);
+  }
+  return loaded;
+}
+
+}  // namespace rejoin::mesh::detail

@@ -1,0 +1,164 @@
+#include "mesh/detail/orient.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace rejoin::mesh::detail {
+namespace {
+
+/// One side of a face, by the edge's smaller and larger vertex.
+struct Side {
+  std::uint64_t edge;
+  std::uint32_t face;
+  bool forward;  ///< runs from the smaller to the larger vertex
+};
+
+std::vector<Side> sorted_sides(const Mesh& mesh) {
+  std::vector<Side> sides;
+  sides.reserve(3 * mesh.faces.size());
+  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const std::uint64_t a = mesh.faces[f][k];
+      const std::uint64_t b = mesh.faces[f][(k + 1) % 3];
+      sides.push_back({(std::min(a, b) << 32U) | std::max(a, b), f, a < b});
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return a.edge != b.edge ? a.edge < b.edge : a.face < b.face;
+  });
+  return sides;
+}
+
+struct Neighbour {
+  std::uint32_t face;
+  bool agrees;
+};
+
+struct Adjacency {
+  std::vector<std::uint32_t> first;  ///< per face, into neighbours
+  std::vector<Neighbour> neighbours;
+  bool closed = true;  ///< every edge has an even number of faces
+  bool consistent = true;
+};
+
+/// Faces joined across edges of exactly two faces.
+Adjacency adjacency_of(const Mesh& mesh) {
+  const std::vector<Side> sides = sorted_sides(mesh);
+  Adjacency adjacency;
+  std::vector<std::pair<std::uint32_t, Neighbour>> links;
+  for (std::size_t i = 0; i < sides.size();) {
+    std::size_t end = i + 1;
+    while (end < sides.size() && sides[end].edge == sides[i].edge) ++end;
+    if ((end - i) % 2 == 1) adjacency.closed = false;
+    if (end - i == 2) {
+      const bool agrees = sides[i].forward != sides[i + 1].forward;
+      adjacency.consistent = adjacency.consistent && agrees;
+      links.emplace_back(sides[i].face, Neighbour{sides[i + 1].face, agrees});
+      links.emplace_back(sides[i + 1].face, Neighbour{sides[i].face, agrees});
+    }
+    i = end;
+  }
+  if (adjacency.consistent) return adjacency;
+  std::stable_sort(links.begin(), links.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  adjacency.first.assign(mesh.faces.size() + 1, 0);
+  for (const auto& [face, neighbour] : links) {
+    ++adjacency.first[face + 1];
+    adjacency.neighbours.push_back(neighbour);
+  }
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) adjacency.first[f + 1] += adjacency.first[f];
+  return adjacency;
+}
+
+double doubled_area(const Mesh& mesh, const glm::uvec3& face) {
+  const glm::dvec3 a(mesh.vertices[face.x]);
+  return glm::length(
+      glm::cross(glm::dvec3(mesh.vertices[face.y]) - a, glm::dvec3(mesh.vertices[face.z]) - a));
+}
+
+void turn(glm::uvec3& face) {
+  std::swap(face.y, face.z);
+}
+
+/// Winds every connected part consistently.
+class Winder {
+ public:
+  Winder(Mesh& mesh, const Adjacency& adjacency)
+      : mesh_(mesh),
+        adjacency_(adjacency),
+        visited_(mesh.faces.size(), false),
+        turned_(mesh.faces.size(), false) {}
+
+  std::size_t wind() {
+    std::size_t count = 0;
+    for (std::uint32_t seed = 0; seed < mesh_.faces.size(); ++seed) {
+      if (!visited_[seed]) count += wind_part(seed);
+    }
+    return count;
+  }
+
+ private:
+  std::size_t wind_part(std::uint32_t seed) {
+    std::vector<std::uint32_t> part{seed};
+    visited_[seed] = true;
+    bool orientable = true;
+    double area[2] = {0, 0};
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      const std::uint32_t face = part[i];
+      area[turned_[face] ? 1 : 0] += doubled_area(mesh_, mesh_.faces[face]);
+      for (std::uint32_t n = adjacency_.first[face]; n < adjacency_.first[face + 1]; ++n) {
+        const auto [other, agrees] = adjacency_.neighbours[n];
+        const bool wanted = agrees == turned_[face];
+        if (visited_[other]) {
+          orientable = orientable && turned_[other] == wanted;
+        } else {
+          visited_[other] = true;
+          turned_[other] = wanted;
+          part.push_back(other);
+        }
+      }
+    }
+    if (!orientable) return 0;
+    const bool keep = area[0] >= area[1];
+    std::size_t count = 0;
+    for (const std::uint32_t face : part) {
+      if (turned_[face] != keep) continue;
+      turn(mesh_.faces[face]);
+      ++count;
+    }
+    return count;
+  }
+
+  Mesh& mesh_;
+  const Adjacency& adjacency_;
+  std::vector<bool> visited_;
+  std::vector<bool> turned_;
+};
+
+double enclosed_volume(const Mesh& mesh) {
+  const glm::dvec3 centre = centroid(mesh);
+  double volume = 0;
+  for (const glm::uvec3& face : mesh.faces) {
+    const glm::dvec3 a = glm::dvec3(mesh.vertices[face.x]) - centre;
+    const glm::dvec3 b = glm::dvec3(mesh.vertices[face.y]) - centre;
+    const glm::dvec3 c = glm::dvec3(mesh.vertices[face.z]) - centre;
+    volume += glm::dot(a, glm::cross(b, c)) / 6.0;
+  }
+  return volume;
+}
+
+}  // namespace
+
+Turned orient_faces(Mesh& mesh) {
+  const Adjacency adjacency = adjacency_of(mesh);
+  Turned turned;
+  if (!adjacency.consistent) turned.inconsistent = Winder(mesh, adjacency).wind();
+  turned.inside_out = adjacency.closed && enclosed_volume(mesh) < 0;
+  if (turned.inside_out) {
+    for (glm::uvec3& face : mesh.faces) turn(face);
+  }
+  return turned;
+}
+
+}  // namespace rejoin::mesh::detail

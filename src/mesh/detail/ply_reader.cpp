@@ -1,0 +1,265 @@
+// A reader of its own: OpenMesh's keeps half of a truncated file, dies of bad_alloc on a header that promises
+// more than memory holds, and reads coordinates as floats.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+
+#include "core/error.hpp"
+#include "mesh/detail/ply_header.hpp"
+
+namespace rejoin::mesh::detail {
+namespace {
+
+/// Where the reader is, for its errors.
+struct Place {
+  const std::string* file;
+  const PlyElement* element;
+  std::size_t index;
+
+  [[noreturn]] void truncated() const {
+    throw IoError(
+        *file,
+        fmt::format("ends in {} {} of the {} that its header promises", element->name, index, element->count),
+        "copy or export the file again");
+  }
+  [[noreturn]] void invalid(const std::string& problem) const {
+    throw InputError(*file, fmt::format("{} {}: {}", element->name, index, problem), "export the scan again");
+  }
+};
+
+class BinaryValues {
+ public:
+  BinaryValues(const std::string& bytes, std::size_t start, bool big)
+      : bytes_(bytes), at_(start), big_(big) {}
+
+  double next(PlyType type, const Place& place) {
+    switch (type) {
+      case PlyType::Int8:
+        return take<std::int8_t>(place);
+      case PlyType::Uint8:
+        return take<std::uint8_t>(place);
+      case PlyType::Int16:
+        return take<std::int16_t>(place);
+      case PlyType::Uint16:
+        return take<std::uint16_t>(place);
+      case PlyType::Int32:
+        return take<std::int32_t>(place);
+      case PlyType::Uint32:
+        return take<std::uint32_t>(place);
+      case PlyType::Float32:
+        return take<float>(place);
+      case PlyType::Float64:
+        return take<double>(place);
+    }
+    return 0;
+  }
+
+  /// Checks that a list fits, before anything is stored for it.
+  void expect(std::size_t count, PlyType type, const Place& place) const {
+    if (count > (bytes_.size() - at_) / size_of(type)) place.truncated();
+  }
+
+ private:
+  template <class T>
+  T take(const Place& place) {
+    if (bytes_.size() - at_ < sizeof(T)) place.truncated();
+    std::array<char, sizeof(T)> raw;
+    std::memcpy(raw.data(), bytes_.data() + at_, sizeof(T));
+    if (big_ == (std::endian::native == std::endian::little)) std::reverse(raw.begin(), raw.end());
+    at_ += sizeof(T);
+    return std::bit_cast<T>(raw);
+  }
+
+  const std::string& bytes_;
+  std::size_t at_;
+  bool big_;
+};
+
+class AsciiValues {
+ public:
+  AsciiValues(const std::string& bytes, std::size_t start)
+      : at_(bytes.data() + start), end_(bytes.data() + bytes.size()) {}
+
+  double next(PlyType /*unused*/, const Place& place) {
+    while (at_ != end_ && std::isspace(static_cast<unsigned char>(*at_)) != 0) ++at_;
+    if (at_ == end_) place.truncated();
+    if (*at_ == '+') ++at_;
+    double value = 0;
+    const auto [end, error] = std::from_chars(at_, end_, value);
+    if (error == std::errc::invalid_argument ||
+        (end != end_ && std::isspace(static_cast<unsigned char>(*end)) == 0)) {
+      const char* stop =
+          std::find_if(at_, std::min(end_, at_ + 20), [](unsigned char c) { return std::isspace(c) != 0; });
+      place.invalid(fmt::format("\"{}\" is not a number", std::string_view(at_, stop)));
+    }
+    at_ = end;
+    return value;
+  }
+
+  void expect(std::size_t count, PlyType /*unused*/, const Place& place) const {
+    if (count > static_cast<std::size_t>(end_ - at_)) place.truncated();
+  }
+
+ private:
+  const char* at_;
+  const char* end_;
+};
+
+/// An index that no point has, for negative and fractional ones: the common check then names the face.
+constexpr std::uint32_t kNoPoint = std::numeric_limits<std::uint32_t>::max();
+
+std::uint32_t to_index(double value) {
+  return value >= 0 && value < kNoPoint && value == std::floor(value) ? static_cast<std::uint32_t>(value)
+                                                                      : kNoPoint;
+}
+
+std::uint8_t to_byte(double value) {
+  return value > 0 ? static_cast<std::uint8_t>(std::lround(std::min(value, 255.0))) : std::uint8_t{0};
+}
+
+/// Columns of the vertex element that are kept: x y z, nx ny nz, red green blue; -1 where missing.
+struct Columns {
+  explicit Columns(const PlyElement& vertex) {
+    static const std::array<const char*, 9> kNames{"x", "y", "z", "nx", "ny", "nz", "red", "green", "blue"};
+    for (std::size_t i = 0; i < kNames.size(); ++i) {
+      at[i] = vertex.find(kNames[i]);
+      if (i >= 6 && at[i] < 0) at[i] = vertex.find(std::string("diffuse_") + kNames[i]);
+    }
+    has_normals = std::min({at[3], at[4], at[5]}) >= 0;
+    has_colours = std::min({at[6], at[7], at[8]}) >= 0;
+    if (!has_colours) return;
+    const PlyType type = vertex.properties[static_cast<std::size_t>(at[6])].type;
+    if (type == PlyType::Float32 || type == PlyType::Float64) colour_scale = 255;
+    if (type == PlyType::Uint16) colour_scale = 255.0 / 65535.0;
+  }
+  bool has_position() const { return std::min({at[0], at[1], at[2]}) >= 0; }
+
+  std::array<int, 9> at{};
+  bool has_normals = false;
+  bool has_colours = false;
+  double colour_scale = 1;
+};
+
+/// Reads all values of one element and hands scalars and lists on.
+template <class Values>
+void read_element(Values& values, Place place, const std::function<void(const std::vector<double>&)>& scalars,
+                  const std::function<void(std::size_t property, const std::vector<double>&)>& list) {
+  std::vector<double> row(place.element->properties.size());
+  std::vector<double> items;
+  for (place.index = 0; place.index < place.element->count; ++place.index) {
+    for (std::size_t p = 0; p < row.size(); ++p) {
+      const PlyProperty& property = place.element->properties[p];
+      if (!property.list) {
+        row[p] = values.next(property.type, place);
+        continue;
+      }
+      const double count = values.next(property.count_type, place);
+      if (!(count >= 0) || count != std::floor(count))
+        place.invalid("a list of a negative or fractional length");
+      values.expect(static_cast<std::size_t>(count), property.type, place);
+      items.resize(static_cast<std::size_t>(count));
+      for (double& item : items) item = values.next(property.type, place);
+      list(p, items);
+    }
+    scalars(row);
+  }
+}
+
+template <class Values>
+void read_vertices(Values& values, const Place& place, Soup& soup) {
+  const Columns columns(*place.element);
+  if (!columns.has_position())
+    throw InputError(*place.file, "its vertices have no x, y, z", "export the scan again");
+  soup.points.reserve(place.element->count);
+  const auto triple = [&columns](const std::vector<double>& row, std::size_t first) {
+    const auto value = [&](std::size_t i) { return row[static_cast<std::size_t>(columns.at[first + i])]; };
+    return glm::dvec3(value(0), value(1), value(2));
+  };
+  read_element(
+      values, place,
+      [&](const std::vector<double>& row) {
+        soup.points.push_back(triple(row, 0));
+        if (columns.has_normals) soup.normals.emplace_back(triple(row, 3));
+        if (columns.has_colours) {
+          const glm::dvec3 colour = triple(row, 6) * columns.colour_scale;
+          soup.colours.emplace_back(to_byte(colour.x), to_byte(colour.y), to_byte(colour.z));
+        }
+      },
+      [](std::size_t, const std::vector<double>&) {});
+}
+
+template <class Values>
+void read_faces(Values& values, const Place& place, Soup& soup) {
+  int corners = place.element->find("vertex_indices");
+  if (corners < 0) corners = place.element->find("vertex_index");
+  if (place.element->count > 0 &&
+      (corners < 0 || !place.element->properties[static_cast<std::size_t>(corners)].list)) {
+    throw InputError(*place.file, "its faces have no list of vertex indices", "export the scan again");
+  }
+  soup.sizes.reserve(place.element->count);
+  soup.corners.reserve(3 * place.element->count);
+  read_element(
+      values, place, [](const std::vector<double>&) {},
+      [&](std::size_t property, const std::vector<double>& items) {
+        if (static_cast<int>(property) != corners) return;
+        soup.sizes.push_back(static_cast<std::uint32_t>(items.size()));
+        for (const double item : items) soup.corners.push_back(to_index(item));
+      });
+}
+
+/// The header's promise against the bytes that are there, before memory is asked for.
+void check_promise(const Source& source, const PlyHeader& header) {
+  const std::size_t body = source.bytes.size() - header.body;
+  const bool ascii = header.encoding == PlyHeader::Encoding::Ascii;
+  std::size_t left = body + (ascii ? 1 : 0);
+  for (const PlyElement& element : header.elements) {
+    const std::size_t each = element.least_bytes(ascii);
+    if (each > 0 && element.count > left / each) {
+      throw IoError(
+          source.name,
+          fmt::format("its header promises {} {} elements, at least {} bytes each, but only {} bytes follow",
+                      element.count, element.name, each, body),
+          "copy or export the file again");
+    }
+    left -= each * element.count;
+  }
+}
+
+template <class Values>
+Soup read_body(const Source& source, const PlyHeader& header, Values values) {
+  Soup soup;
+  for (const PlyElement& element : header.elements) {
+    const Place place{&source.name, &element, 0};
+    if (element.name == "vertex") {
+      read_vertices(values, place, soup);
+    } else if (element.name == "face") {
+      read_faces(values, place, soup);
+    } else if (!element.properties.empty()) {
+      read_element(
+          values, place, [](const std::vector<double>&) {}, [](std::size_t, const std::vector<double>&) {});
+    }
+  }
+  return soup;
+}
+
+}  // namespace
+
+Soup read_ply(const Source& source) {
+  const PlyHeader header = read_ply_header(source);
+  check_promise(source, header);
+  if (header.encoding == PlyHeader::Encoding::Ascii) {
+    return read_body(source, header, AsciiValues(source.bytes, header.body));
+  }
+  return read_body(source, header,
+                   BinaryValues(source.bytes, header.body, header.encoding == PlyHeader::Encoding::Big));
+}
+
+}  // namespace rejoin::mesh::detail

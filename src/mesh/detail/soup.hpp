@@ -1,0 +1,48 @@
+/// What a file holds before clean-up, and the checks that all readers share.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mesh/load.hpp"
+
+namespace rejoin::mesh::detail {
+
+/// Points and polygons as read, in file coordinates and full precision.
+struct Soup {
+  std::vector<glm::dvec3> points;
+  std::vector<glm::vec3> normals;      ///< one a point, any length, or empty
+  std::vector<glm::u8vec3> colours;    ///< one a point, or empty
+  std::vector<std::uint32_t> corners;  ///< point indices of all polygons, one polygon after the other
+  std::vector<std::uint32_t> sizes;    ///< number of corners of every polygon
+
+  void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    corners.insert(corners.end(), {a, b, c});
+    sizes.push_back(3);
+  }
+};
+
+/// A file's bytes and the name for its errors.
+struct Source {
+  std::string name;
+  std::filesystem::path path;
+  std::string bytes;
+};
+
+/// \throws IoError the path cannot be read, is a folder, or is empty
+Source read_source(const std::filesystem::path& path);
+
+Soup read_ply(const Source& source);
+
+/// Checks, triangulates, welds and cleans (see load()).
+Loaded clean(const Soup& soup, const std::string& name);
+
+/// Unit normals from the neighbourhood of every point, turned outwards (Hoppe 1992: along a spanning tree of
+/// the most parallel neighbours, from the highest point of every part).
+std::vector<glm::vec3> estimate_normals(const std::vector<glm::vec3>& points);
+
+}  // namespace rejoin::mesh::detail

@@ -1,0 +1,26 @@
+/// Equal vertices to one vertex, equal faces to one face.
+#pragma once
+
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace rejoin::mesh::detail {
+
+/// Makes one vertex of all vertices at exactly the same place (no tolerance: nothing may depend on the scale)
+/// and adjusts the faces.  The first one's place in the order stays; normals are added up (not unit length
+/// any more), the first colour is kept.
+void weld(Mesh& mesh);
+
+struct Dropped {
+  std::size_t degenerate = 0;  ///< two corners the same, or no area
+  std::size_t duplicate = 0;   ///< same corners in the same sense as an earlier face
+};
+
+/// Drops degenerate and duplicate faces; the order of the rest stays.
+Dropped drop_useless_faces(Mesh& mesh);
+
+/// Drops vertices that no face uses.  \pre the mesh has faces
+void drop_unused_vertices(Mesh& mesh);
+
+}  // namespace rejoin::mesh::detail

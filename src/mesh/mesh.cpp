@@ -1,0 +1,201 @@
+#include "mesh/mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/parallel.hpp"
+#include "mesh/point_index.hpp"
+
+namespace rejoin::mesh {
+namespace {
+
+/// Twice the area times the unit normal.
+glm::dvec3 face_cross(const Mesh& mesh, const glm::uvec3& face) {
+  const glm::dvec3 a(mesh.vertices[face.x]);
+  return glm::cross(glm::dvec3(mesh.vertices[face.y]) - a, glm::dvec3(mesh.vertices[face.z]) - a);
+}
+
+/// Directions spread over a half sphere (golden spiral) so that no direction is further than 7 degrees from
+/// one of them or its opposite.
+std::vector<glm::vec3> half_sphere_directions() {
+  constexpr int kCount = 256;
+  std::vector<glm::vec3> directions;
+  directions.reserve(kCount);
+  const double turn = std::numbers::pi * (3.0 - std::sqrt(5.0));
+  for (int i = 0; i < kCount; ++i) {
+    const double z = (i + 0.5) / kCount;
+    const double r = std::sqrt(1.0 - z * z);
+    directions.emplace_back(r * std::cos(turn * i), r * std::sin(turn * i), z);
+  }
+  return directions;
+}
+
+/// Index of the first vertex that lies furthest along `direction`, and of the one furthest back.
+std::pair<std::uint32_t, std::uint32_t> extremes(const std::vector<glm::vec3>& vertices,
+                                                 const glm::vec3& direction) {
+  float low = std::numeric_limits<float>::infinity();
+  float high = -low;
+  std::pair<std::uint32_t, std::uint32_t> result{0, 0};
+  for (std::uint32_t i = 0; i < vertices.size(); ++i) {
+    const float along = glm::dot(vertices[i], direction);
+    if (along < low) {
+      low = along;
+      result.first = i;
+    }
+    if (along > high) {
+      high = along;
+      result.second = i;
+    }
+  }
+  return result;
+}
+
+double median(std::vector<float>& values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double cloud_spacing(const Mesh& mesh) {
+  // The median is settled by some ten thousand points; more would only take time.
+  constexpr std::size_t kEnough = 20000;
+  const std::size_t step = std::max<std::size_t>(1, mesh.vertices.size() / kEnough);
+  const PointIndex index(mesh.vertices);
+  std::vector<std::uint32_t> found;
+  std::vector<float> distances;
+  for (std::size_t i = 0; i < mesh.vertices.size(); i += step) {
+    index.nearest(mesh.vertices[i], 2, found);
+    if (found.size() == 2)
+      distances.push_back(glm::distance(mesh.vertices[found[0]], mesh.vertices[found[1]]));
+  }
+  return median(distances);
+}
+
+}  // namespace
+
+Box bounds(const Mesh& mesh) {
+  Box box{mesh.vertices.front(), mesh.vertices.front()};
+  for (const glm::vec3& vertex : mesh.vertices) {
+    box.low = glm::min(box.low, vertex);
+    box.high = glm::max(box.high, vertex);
+  }
+  return box;
+}
+
+glm::dvec3 centroid(const Mesh& mesh) {
+  glm::dvec3 sum(0.0);
+  double weight = 0;
+  for (const glm::uvec3& face : mesh.faces) {
+    const double area = glm::length(face_cross(mesh, face));
+    sum += area / 3.0 *
+           (glm::dvec3(mesh.vertices[face.x]) + glm::dvec3(mesh.vertices[face.y]) +
+            glm::dvec3(mesh.vertices[face.z]));
+    weight += area;
+  }
+  if (weight > 0) return sum / weight;
+  sum = glm::dvec3(0.0);
+  for (const glm::vec3& vertex : mesh.vertices) sum += glm::dvec3(vertex);
+  return mesh.vertices.empty() ? sum : sum / static_cast<double>(mesh.vertices.size());
+}
+
+double diameter(const Mesh& mesh) {
+  if (mesh.vertices.empty()) return 0;
+  // The width along a direction 7 degrees off the longest chord is at least cos 7 = 0.993 of it.
+  const std::vector<glm::vec3> directions = half_sphere_directions();
+  std::vector<std::uint32_t> ends(2 * directions.size());
+  parallel_for(directions.size(), 8, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const auto [low, high] = extremes(mesh.vertices, directions[i]);
+      ends[2 * i] = low;
+      ends[2 * i + 1] = high;
+    }
+  });
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  double longest = 0;
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    for (std::size_t k = i + 1; k < ends.size(); ++k) {
+      longest = std::max(
+          longest, glm::distance(glm::dvec3(mesh.vertices[ends[i]]), glm::dvec3(mesh.vertices[ends[k]])));
+    }
+  }
+  return longest;
+}
+
+double resolution(const Mesh& mesh) {
+  if (mesh.is_cloud()) return cloud_spacing(mesh);
+  std::vector<float> lengths;
+  lengths.reserve(3 * mesh.faces.size());
+  for (const glm::uvec3& face : mesh.faces) {
+    lengths.push_back(glm::distance(mesh.vertices[face.x], mesh.vertices[face.y]));
+    lengths.push_back(glm::distance(mesh.vertices[face.y], mesh.vertices[face.z]));
+    lengths.push_back(glm::distance(mesh.vertices[face.z], mesh.vertices[face.x]));
+  }
+  return median(lengths);
+}
+
+double surface_area(const Mesh& mesh) {
+  double twice = 0;
+  for (const glm::uvec3& face : mesh.faces) twice += glm::length(face_cross(mesh, face));
+  return twice / 2;
+}
+
+std::vector<glm::vec3> face_normals(const Mesh& mesh) {
+  std::vector<glm::vec3> normals(mesh.faces.size(), glm::vec3(0.0F));
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
+    const glm::dvec3 cross = face_cross(mesh, mesh.faces[i]);
+    const double length = glm::length(cross);
+    if (length > 0) normals[i] = glm::vec3(cross / length);
+  }
+  return normals;
+}
+
+void compute_normals(Mesh& mesh) {
+  std::vector<glm::dvec3> sums(mesh.vertices.size(), glm::dvec3(0.0));
+  std::vector<glm::dvec3> first(mesh.vertices.size(), glm::dvec3(0.0, 0.0, 1.0));
+  std::vector<bool> seen(mesh.vertices.size(), false);
+  for (const glm::uvec3& face : mesh.faces) {
+    const glm::dvec3 cross = face_cross(mesh, face);
+    for (int k = 0; k < 3; ++k) {
+      sums[face[k]] += cross;
+      if (!seen[face[k]] && glm::length(cross) > 0) {
+        first[face[k]] = glm::normalize(cross);
+        seen[face[k]] = true;
+      }
+    }
+  }
+  mesh.normals.resize(mesh.vertices.size());
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const double length = glm::length(sums[i]);
+    // Faces that cancel (a sheet drawn from both sides) leave the first one's normal: still unit length.
+    mesh.normals[i] = glm::vec3(length > 0 ? sums[i] / length : first[i]);
+  }
+}
+
+Mesh submesh(const Mesh& mesh, const std::vector<std::uint32_t>& faces) {
+  constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> renumbered(mesh.vertices.size(), kUnused);
+  Mesh part;
+  part.origin = mesh.origin;
+  part.faces.reserve(faces.size());
+  for (const std::uint32_t index : faces) {
+    glm::uvec3 face = mesh.faces[index];
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t old = face[k];
+      if (renumbered[old] == kUnused) {
+        renumbered[old] = static_cast<std::uint32_t>(part.vertices.size());
+        part.vertices.push_back(mesh.vertices[old]);
+        if (!mesh.normals.empty()) part.normals.push_back(mesh.normals[old]);
+        if (!mesh.colours.empty()) part.colours.push_back(mesh.colours[old]);
+      }
+      face[k] = renumbered[old];
+    }
+    part.faces.push_back(face);
+  }
+  return part;
+}
+
+}  // namespace rejoin::mesh

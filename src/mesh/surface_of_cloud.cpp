@@ -1,0 +1,16 @@
+#include "mesh/detail/local_delaunay.hpp"
+#include "mesh/detail/sheet.hpp"
+#include "mesh/surface.hpp"
+
+namespace rejoin::mesh {
+
+Mesh surface_of_cloud(const Mesh& cloud) {
+  const detail::Neighbourhoods around = detail::local_delaunay(cloud);
+  detail::Sheet sheet(cloud.vertices, around.axes);
+  for (const detail::Candidate& candidate : around.candidates) sheet.add(candidate.corners);
+  Mesh mesh = cloud;
+  mesh.faces = sheet.faces();
+  return mesh;
+}
+
+}  // namespace rejoin::mesh
