@@ -1,0 +1,85 @@
+#include "cli/arguments.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+
+#include "cli/command.hpp"
+
+namespace rejoin::cli {
+namespace {
+
+std::optional<double> parse_number(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == ',') {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+}  // namespace
+
+Choices<zbuffer::Backend> backend_choices() {
+  Choices<zbuffer::Backend> choices;
+  for (const zbuffer::Backend backend :
+       {zbuffer::Backend::Auto, zbuffer::Backend::Gpu, zbuffer::Backend::OsMesa, zbuffer::Backend::Raster,
+        zbuffer::Backend::RayCast}) {
+    choices.emplace_back(zbuffer::name_of(backend), backend);
+  }
+  return choices;
+}
+
+CLI::Validator in_range(double low, double high) {
+  return {[low, high](std::string& text) {
+            const std::optional<double> value = parse_number(text);
+            if (value && *value >= low && *value <= high) return std::string();
+            return fmt::format("'{}' is no number from {} to {}", text, low, high);
+          },
+          ""};
+}
+
+glm::dvec3 parse_direction(const std::string& option, const std::string& text) {
+  const std::vector<std::string> parts = split(text);
+  glm::dvec3 direction(0.0);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto value = parts.size() == 3 ? parse_number(parts[axis]) : std::nullopt;
+    if (!value)
+      throw UsageError(option, fmt::format("'{}' is no direction", text), "give x,y,z, such as 0,0,1");
+    direction[axis] = *value;
+  }
+  const double largest = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
+  if (largest == 0.0) {
+    throw UsageError(option, fmt::format("'{}' has length 0", text), "give x,y,z, such as 0,0,1");
+  }
+  return glm::normalize(direction / largest);  // first the scale: squares of extreme numbers overflow
+}
+
+std::vector<glm::dvec3> parse_directions(const std::string& option, const std::vector<std::string>& texts) {
+  std::vector<glm::dvec3> directions;
+  for (const std::string& text : texts) directions.push_back(parse_direction(option, text));
+  return directions;
+}
+
+void require_two_files(const std::string& a, const std::string& b) {
+  std::error_code unreadable;  // load() tells that better
+  if (a == b || std::filesystem::equivalent(a, b, unreadable)) {
+    throw UsageError(b, "is the same file as " + a, "give two different fragments");
+  }
+}
+
+}  // namespace rejoin::cli

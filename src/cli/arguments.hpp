@@ -1,0 +1,51 @@
+/// Turning the words of the command line into values.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <glm/glm.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "zbuffer/scorer.hpp"
+
+namespace rejoin::cli {
+
+/// The words that an option accepts, with what they mean.
+template <typename Value>
+using Choices = std::vector<std::pair<std::string, Value>>;
+
+/// Adds an option that takes one of a few words; help shows them as "one|two|three".
+template <typename Value>
+CLI::Option* add_choice(CLI::App& app, const std::string& name, Value& value, const Choices<Value>& choices,
+                        const std::string& description) {
+  std::string words;
+  for (const auto& [word, meaning] : choices) words += (words.empty() ? "" : "|") + word;
+  const auto parse = [&value, choices, words](const std::string& text) {
+    for (const auto& [word, meaning] : choices) {
+      if (word != text) continue;
+      value = meaning;
+      return;
+    }
+    throw CLI::ValidationError("'" + text + "' is none of " + words);
+  };
+  return app.add_option_function<std::string>(name, parse, description)->type_name(words);
+}
+
+/// The backends that a user may choose.
+Choices<zbuffer::Backend> backend_choices();
+
+/// Lets only numbers from low to high through; NaN is outside.
+CLI::Validator in_range(double low, double high);
+
+/// A direction "x,y,z", scaled to unit length.
+/// \throws UsageError not three finite numbers, or length 0
+glm::dvec3 parse_direction(const std::string& option, const std::string& text);
+
+/// Unit directions of an option that may be given several times.
+std::vector<glm::dvec3> parse_directions(const std::string& option, const std::vector<std::string>& texts);
+
+/// \throws UsageError both paths lead to the same file
+void require_two_files(const std::string& a, const std::string& b);
+
+}  // namespace rejoin::cli

@@ -1,0 +1,54 @@
+#include "cli/console.hpp"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace rejoin::cli {
+
+Console::Console() : terminal_(isatty(STDERR_FILENO) == 1) {}
+
+Console::~Console() {
+  end_progress();
+}
+
+void Console::result(std::string_view text) {
+  end_progress();
+  if (!quiet) fmt::print("{}", text);
+}
+
+void Console::warning(std::string_view text) {
+  end_progress();
+  fmt::print(stderr, "rejoin: warning: {}\n", text);
+}
+
+void Console::detail(std::string_view text) {
+  if (!verbose) return;
+  end_progress();
+  fmt::print(stderr, "{}\n", text);
+}
+
+void Console::progress(std::string_view stage, double fraction) {
+  constexpr int kWidth = 30;
+  constexpr auto kPause = std::chrono::milliseconds(50);
+  const auto now = std::chrono::steady_clock::now();
+  if (!terminal_ || quiet || (bar_drawn_ && now - last_drawn_ < kPause)) return;
+  const double share = std::clamp(fraction, 0.0, 1.0);
+  const int full = static_cast<int>(share * kWidth);
+  fmt::print(stderr, "\r\033[K[{:=<{}}{: <{}}] {:3.0f} % {}", "", full, "", kWidth - full, 100 * share,
+             stage);
+  std::fflush(stderr);
+  bar_drawn_ = true;
+  last_drawn_ = now;
+}
+
+void Console::end_progress() {
+  if (!bar_drawn_) return;
+  fmt::print(stderr, "\r\033[K");
+  std::fflush(stderr);
+  bar_drawn_ = false;
+}
+
+}  // namespace rejoin::cli

@@ -1,0 +1,42 @@
+/// What the user sees while and after the program works.
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <string_view>
+
+namespace rejoin::cli {
+
+/// Results go to stdout, everything else to stderr.  Not thread-safe.
+class Console {
+ public:
+  bool quiet = false;    ///< no results on stdout and no progress; warnings and errors stay
+  bool verbose = false;  ///< more on stderr
+
+  /// Looks whether stderr is a terminal; only then progress is shown.
+  Console();
+  ~Console();
+  Console(const Console&) = delete;
+  Console& operator=(const Console&) = delete;
+
+  /// A part of the result, with its line end.
+  void result(std::string_view text);
+
+  void warning(std::string_view text);
+
+  /// A line for --verbose.
+  void detail(std::string_view text);
+
+  /// Draws the bar.  fraction: 0 .. 1
+  void progress(std::string_view stage, double fraction);
+
+  /// Takes the bar away before something else is written.
+  void end_progress();
+
+ private:
+  bool terminal_;
+  bool bar_drawn_ = false;
+  std::chrono::steady_clock::time_point last_drawn_;
+};
+
+}  // namespace rejoin::cli

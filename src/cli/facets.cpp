@@ -1,0 +1,138 @@
+/// rejoin facets
+#include <fmt/core.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "cli/command.hpp"
+#include "cli/files.hpp"
+#include "cli/fragment.hpp"
+#include "mesh/facets.hpp"
+#include "mesh/save.hpp"
+
+namespace rejoin::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Distinct, bright colours for fracture facets; the original surface is grey.
+glm::u8vec3 colour_of(int number, const mesh::Segmentation& facets) {
+  constexpr glm::u8vec3 kNone(60, 60, 60);
+  constexpr glm::u8vec3 kOriginal(190, 190, 190);
+  if (number < 0) return kNone;
+  if (!facets.facets[number].fracture) return kOriginal;
+  const double hue =
+      std::fmod(number * 0.618033988749895, 1.0) * 6.0;  // the golden ratio keeps neighbours apart
+  const auto channel = [hue](double offset) {
+    const double k = std::fmod(offset + hue, 6.0);
+    return static_cast<std::uint8_t>(255.0 * (0.95 - 0.8 * std::clamp(std::min(k, 4.0 - k), 0.0, 1.0)));
+  };
+  return {channel(5.0), channel(3.0), channel(1.0)};
+}
+
+/// The surface with every facet in its own colour; vertices between facets are doubled so that borders stay
+/// sharp.
+mesh::Mesh coloured(const mesh::Mesh& surface, const mesh::Segmentation& facets) {
+  const std::vector<int> facet_of_face = mesh::facet_of_faces(facets, surface);
+  mesh::Mesh result;
+  result.origin = surface.origin;
+  std::map<std::pair<std::uint32_t, int>, std::uint32_t> copies;
+  for (std::size_t f = 0; f < surface.faces.size(); ++f) {
+    const int number = facet_of_face[f];
+    glm::uvec3 face;
+    for (int corner = 0; corner < 3; ++corner) {
+      const std::uint32_t vertex = surface.faces[f][corner];
+      const auto [copy, added] = copies.try_emplace({vertex, number}, result.vertices.size());
+      if (added) {
+        result.vertices.push_back(surface.vertices[vertex]);
+        result.colours.push_back(colour_of(number, facets));
+      }
+      face[corner] = copy->second;
+    }
+    result.faces.push_back(face);
+  }
+  return result;
+}
+
+std::string table(const mesh::Segmentation& facets) {
+  std::string text = fmt::format("{:>6}  {:<8} {:>10} {:>9} {:>9} {:>9}  {}\n", "number", "surface", "area",
+                                 "length", "width", "rough %", "direction (outwards)");
+  for (std::size_t i = 0; i < facets.facets.size(); ++i) {
+    const mesh::Facet& facet = facets.facets[i];
+    text += fmt::format("{:>6}  {:<8} {:>10.4g} {:>9.4g} {:>9.4g} {:>9.2f}  {:.3f},{:.3f},{:.3f}\n", i,
+                        facet.fracture ? "fracture" : "original", facet.area, facet.length, facet.width,
+                        100.0 * facet.roughness, facet.normal.x, facet.normal.y, facet.normal.z);
+  }
+  return text;
+}
+
+ordered_json triple(const glm::dvec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+std::string to_json(const match::Fragment& fragment) {
+  ordered_json list = ordered_json::array();
+  for (const mesh::Facet& facet : fragment.facets.facets) {
+    list.push_back({{"number", list.size()},
+                    {"fracture", facet.fracture},
+                    {"area", facet.area},
+                    {"length", facet.length},
+                    {"width", facet.width},
+                    {"roughness", facet.roughness},
+                    {"direction", triple(facet.normal)},
+                    {"along", triple(facet.along)},
+                    {"centre", triple(fragment.surface.origin + facet.centre)}});
+  }
+  const ordered_json json = {{"schema", "rejoin.facets/1"},
+                             {"path", fragment.path},
+                             {"faces", fragment.surface.faces.size()},
+                             {"diameter", fragment.diameter},
+                             {"wall_thickness", fragment.facets.wall_thickness},
+                             {"facets", list}};
+  return json.dump(2) + "\n";
+}
+
+class FacetsCommand final : public Command {
+ public:
+  void define(CLI::App& app) override {
+    app.add_option("A", path_, "scan of a fragment (ply, obj, stl, off, gltf, glb, drc)")
+        ->required()
+        ->group("Input");
+    app.add_option("--ply", ply_, "write the surface with a colour for each facet")
+        ->type_name("FILE")
+        ->group("Output");
+    app.add_option("--json", json_, "write the table as JSON")->type_name("FILE")->group("Output");
+  }
+
+  ExitCode run(Console& console, Context& context) override {
+    if (ply_ && std::filesystem::path(*ply_).extension() != ".ply") {
+      throw UsageError("--ply", "'" + *ply_ + "' does not end in .ply", "name a .ply file");
+    }
+    if (ply_) require_writable_file(*ply_);
+    if (json_) require_writable_file(*json_);
+    const match::Fragment fragment = load_fragment(path_, console, context);
+    if (context.cancelled()) return kInterrupted;
+    console.result(fmt::format("{}: diameter {:.4g}, {}\n", path_, fragment.diameter,
+                               fragment.facets.wall_thickness > 0
+                                   ? fmt::format("wall {:.3g} thick", fragment.facets.wall_thickness)
+                                   : std::string("solid")));
+    console.result(table(fragment.facets));
+    if (ply_) mesh::save(*ply_, coloured(fragment.surface, fragment.facets));
+    if (json_) write_file(*json_, to_json(fragment));
+    return kDone;
+  }
+
+ private:
+  std::string path_;
+  std::optional<std::string> ply_;
+  std::optional<std::string> json_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_facets_command() {
+  return std::make_unique<FacetsCommand>();
+}
+
+}  // namespace rejoin::cli

@@ -1,0 +1,21 @@
+/// Files that the program writes.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace rejoin::cli {
+
+/// Finds out now, before the long work, whether the file can be written then; leaves no trace.
+/// \throws IoError it cannot
+void require_writable_file(const std::filesystem::path& path);
+
+/// Makes the folder with its parents, and finds out whether files can be made in it.
+/// \throws IoError it cannot be made, is no folder, or refuses files
+void require_writable_folder(const std::filesystem::path& folder);
+
+/// The file appears whole or not at all (written beside and renamed); a device such as /dev/stdout is written
+/// to directly. \throws IoError
+void write_file(const std::filesystem::path& path, std::string_view content);
+
+}  // namespace rejoin::cli

@@ -1,0 +1,28 @@
+/// Ctrl-C.
+#pragma once
+
+#include "core/context.hpp"
+
+namespace rejoin::cli {
+
+/// While it lives, the first Ctrl-C asks the work to end (Context::cancel) and the second kills the process.
+class Interrupt {
+ public:
+  /// \param context  outlives this object
+  explicit Interrupt(Context& context);
+  ~Interrupt();
+  Interrupt(const Interrupt&) = delete;
+  Interrupt& operator=(const Interrupt&) = delete;
+};
+
+/// Marks a stretch of work that cannot be asked to stop and has nothing to save: while it lives, the first
+/// Ctrl-C ends the process at once with exit code 130.
+class NothingToSave {
+ public:
+  NothingToSave();
+  ~NothingToSave();
+  NothingToSave(const NothingToSave&) = delete;
+  NothingToSave& operator=(const NothingToSave&) = delete;
+};
+
+}  // namespace rejoin::cli

@@ -1,0 +1,132 @@
+/// Entry point: finds the subcommand, runs it, and turns whatever happens into an exit code.
+#include <fmt/core.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "cli/command.hpp"
+#include "cli/help.hpp"
+#include "cli/interrupt.hpp"
+#include "core/parallel.hpp"
+#include "core/version.hpp"
+
+namespace rejoin::cli {
+namespace {
+
+struct Entry {
+  CLI::App* app;
+  std::unique_ptr<Command> command;
+};
+
+/// Options that every subcommand knows.
+struct Common {
+  int threads = 0;
+  bool quiet = false;
+  bool verbose = false;
+};
+
+Entry add_command(CLI::App& root, const char* name, const char* description,
+                  std::unique_ptr<Command> command) {
+  CLI::App* app = root.add_subcommand(name, description);
+  command->define(*app);
+  app->fallthrough();  // the common options may follow the subcommand
+  app->set_help_flag("-h,--help")->group("");
+  app->footer("Everywhere: --threads N, --quiet, --verbose, --help  (rejoin --help)");
+  return {app, std::move(command)};
+}
+
+std::vector<Entry> add_commands(CLI::App& root) {
+  std::vector<Entry> entries;
+  entries.push_back(add_command(root, "match", "Find the pose at which B joins A.", make_match_command()));
+  entries.push_back(add_command(root, "compare", "Rasterised against ray-cast error of A and B at a pose.",
+                                make_compare_command()));
+  entries.push_back(
+      add_command(root, "facets", "Show the surfaces along which A may join.", make_facets_command()));
+  entries.push_back(add_command(root, "info", "Version, backends, threads.", make_info_command()));
+  entries.push_back(add_command(root, "bench", "Measure the speed of every backend.", make_bench_command()));
+  entries.push_back(add_command(root, "generate-docs", "Write man pages and completion.",
+                                make_generate_docs_command(root)));
+  entries.back().app->group("");
+  return entries;
+}
+
+void add_common(CLI::App& root, Common& common) {
+  root.formatter(std::make_shared<HelpFormatter>());
+  root.require_subcommand(1);
+  root.set_help_flag("-h,--help", "show this, or a command's own help")->group("Everywhere");
+  root.set_version_flag("--version", std::string("rejoin ") + kVersion, "show the version")
+      ->group("Everywhere");
+  root.add_option("--threads", common.threads, "threads to use (default: all cores)")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1024).description(""))
+      ->group("Everywhere");
+  root.add_flag("--quiet", common.quiet, "no summary and no progress, only warnings and errors")
+      ->group("Everywhere");
+  root.add_flag("--verbose", common.verbose, "tell on stderr what takes how long")->group("Everywhere");
+}
+
+int run(const std::vector<Entry>& entries, const Common& common) {
+  Console console;
+  console.quiet = common.quiet;
+  console.verbose = common.verbose;
+  const ThreadLimit limit(common.threads);
+  Context context([&console](std::string_view stage, double fraction) { console.progress(stage, fraction); });
+  const Interrupt interrupt(context);
+  for (const Entry& entry : entries) {
+    if (entry.app->parsed()) return entry.command->run(console, context);
+  }
+  return kWrongUse;
+}
+
+/// CLI11's messages as one line with the way out.
+int explain(const CLI::App& root, const CLI::ParseError& error) {
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
+    return root.exit(error) == 0 ? kDone : kFailure;  // --help or --version
+  }
+  std::string text = error.what();
+  for (char& c : text) c = c == '\n' ? ' ' : c;
+  const auto used = root.get_subcommands();
+  fmt::print(stderr, "rejoin: {}; see rejoin {}--help\n", text,
+             used.empty() ? "" : used[0]->get_name() + " ");
+  return kWrongUse;
+}
+
+int fail(const std::string& text, ExitCode code) {
+  fmt::print(stderr, "rejoin: {}\n", text);
+  return code;
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App root("Finds how two scanned fragments join.", "rejoin");
+  Common common;
+  add_common(root, common);
+  const std::vector<Entry> entries = add_commands(root);
+  try {
+    root.parse(argc, argv);
+    return run(entries, common);
+  } catch (const CLI::ParseError& error) {
+    return explain(root, error);
+  } catch (const UsageError& error) {
+    return fail(error.what(), kWrongUse);
+  }
+}
+
+}  // namespace
+}  // namespace rejoin::cli
+
+int main(int argc, char** argv) {
+  using namespace rejoin::cli;
+  try {
+    return run_program(argc, argv);
+  } catch (const rejoin::Error& error) {
+    return fail(error.what(), kFailure);
+  } catch (const std::bad_alloc&) {
+    return fail("out of memory; use a smaller scan", kFailure);
+  } catch (const std::exception& error) {
+    return fail(std::string("internal error: ") + error.what(), kFailure);
+  }
+}

@@ -1,0 +1,107 @@
+/// rejoin match
+#include "match/match.hpp"
+
+#include <fmt/core.h>
+
+#include <chrono>
+#include <optional>
+
+#include "cli/arguments.hpp"
+#include "cli/command.hpp"
+#include "cli/files.hpp"
+#include "cli/fragment.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/match_json.hpp"
+#include "cli/match_options.hpp"
+
+namespace rejoin::cli {
+namespace {
+
+void require_facets(const char* option, const std::vector<int>& numbers, const match::Fragment& fragment) {
+  const int count = static_cast<int>(fragment.facets.facets.size());
+  for (const int number : numbers) {
+    if (number < count) continue;
+    throw UsageError(
+        option,
+        fmt::format("{} has {} facets, numbered from 0; there is no {}", fragment.path, count, number),
+        "see rejoin facets " + fragment.path);
+  }
+}
+
+std::string pose_text(const Rigid& pose) {
+  std::string text = "pose (B's coordinates to A's):\n";
+  for (int row = 0; row < 3; ++row) {
+    text += fmt::format("  {:12.8f} {:12.8f} {:12.8f} {:14.6g}\n", pose.rotation[0][row],
+                        pose.rotation[1][row], pose.rotation[2][row], pose.translation[row]);
+  }
+  return text;
+}
+
+std::string summary(const match::Result& result) {
+  if (result.candidates.empty()) return fmt::format("{}: no pose was found\n", name_of(result.verdict));
+  const match::Candidate& best = result.candidates.front();
+  const match::JointError& error = best.error;
+  return fmt::format("{}, score {:.3f}\n", name_of(result.verdict), best.score) + pose_text(best.pose) +
+         fmt::format("error: slope {:.4f}, ray-cast {:.4f}, overlap {:.0f} %\n", error.slope, error.raycast,
+                     100.0 * error.overlap) +
+         fmt::format("contact: area {:.4g}, median gap {:.3g}, penetration {:.3g} (in the scans' unit)\n",
+                     error.contact_area, error.gap_median, error.penetration);
+}
+
+class MatchCommand final : public Command {
+ public:
+  void define(CLI::App& app) override {
+    app.add_option("A", path_a_, "scan of a fragment (ply, obj, stl, off, gltf, glb, drc)")
+        ->required()
+        ->group("Input");
+    app.add_option("B", path_b_, "scan of the fragment that is moved")->required()->group("Input");
+    app.add_option("--json", json_, "write pose, score and errors")->type_name("FILE")->group("Output");
+    app.add_option("--out", out_, "write the joined model and pictures")->type_name("DIR")->group("Output");
+    options_.define(app);
+  }
+
+  ExitCode run(Console& console, Context& context) override {
+    const auto begin = std::chrono::steady_clock::now();
+    const match::Options options = options_.values();
+    require_two_files(path_a_, path_b_);
+    if (json_) require_writable_file(*json_);
+    if (out_) require_writable_folder(*out_);
+    const match::Fragment a = load_fragment(path_a_, console, context);
+    const match::Fragment b = load_fragment(path_b_, console, context);
+    require_facets("--facets-a", options.facets_a, a);
+    require_facets("--facets-b", options.facets_b, b);
+
+    const match::Result result = match::match(a, b, options, context);
+    console.end_progress();
+    for (const std::string& warning : result.warnings) console.warning(warning);
+    tell_times(console, result);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    if (json_) write_file(*json_, match_json(a, b, options, result, seconds.count()));
+    console.result(summary(result));
+    if (json_) console.result(fmt::format("wrote {}\n", *json_));
+    return result.cancelled ? kInterrupted : kDone;
+  }
+
+ private:
+  static void tell_times(Console& console, const match::Result& result) {
+    for (const auto& [stage, seconds] : result.stage_seconds) {
+      console.detail(fmt::format("{:<12} {:8.2f} s", stage, seconds));
+    }
+    console.detail(fmt::format("{} evaluations by {} ({})", result.evaluations,
+                               zbuffer::name_of(result.backend), result.renderer));
+  }
+
+  std::string path_a_;
+  std::string path_b_;
+  std::optional<std::string> json_;
+  std::optional<std::string> out_;
+  MatchOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_match_command() {
+  return std::make_unique<MatchCommand>();
+}
+
+}  // namespace rejoin::cli

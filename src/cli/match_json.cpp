@@ -1,0 +1,108 @@
+#include "cli/match_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "core/version.hpp"
+
+namespace rejoin::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json triple(const glm::dvec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+ordered_json triples(const std::vector<glm::dvec3>& list) {
+  ordered_json json = ordered_json::array();
+  for (const glm::dvec3& v : list) json.push_back(triple(v));
+  return json;
+}
+
+ordered_json matrix(const Rigid& pose) {
+  ordered_json rows = ordered_json::array();
+  for (int row = 0; row < 3; ++row) {
+    rows.push_back(
+        {pose.rotation[0][row], pose.rotation[1][row], pose.rotation[2][row], pose.translation[row]});
+  }
+  rows.push_back({0.0, 0.0, 0.0, 1.0});
+  return rows;
+}
+
+/// Infinite values (not measured) become null, as JSON has no infinity.
+ordered_json error_json(const match::JointError& error) {
+  return {{"depth", error.depth},
+          {"slope", error.slope},
+          {"raycast", error.raycast},
+          {"overlap", error.overlap},
+          {"contact_area", error.contact_area},
+          {"gap_median", error.gap_median},
+          {"penetration", error.penetration}};
+}
+
+ordered_json fragment_json(const match::Fragment& fragment) {
+  return {{"path", fragment.path}, {"faces", fragment.surface.faces.size()}, {"diameter", fragment.diameter}};
+}
+
+ordered_json search_json(const match::Options& options, const match::Result& result, double seconds) {
+  return {{"method", options.search == match::Search::Esa ? "esa" : "sweep"},
+          {"constraint", options.constraint == match::Constraint::None        ? "none"
+                         : options.constraint == match::Constraint::Direction ? "direction"
+                                                                              : "material"},
+          {"directions_a", triples(options.directions_a)},
+          {"directions_b", triples(options.directions_b)},
+          {"tolerance_deg", options.tolerance_deg},
+          {"material_a", options.material_a ? triple(*options.material_a) : ordered_json()},
+          {"material_b", options.material_b ? triple(*options.material_b) : ordered_json()},
+          {"facets_a", options.facets_a},
+          {"facets_b", options.facets_b},
+          {"resolution", options.resolution},
+          {"chains", options.chains},
+          {"seed", options.seed},
+          {"evaluations", result.evaluations},
+          {"seconds", seconds},
+          {"interrupted", result.cancelled}};
+}
+
+}  // namespace
+
+const char* name_of(match::Verdict verdict) {
+  switch (verdict) {
+    case match::Verdict::Join:
+      return "join";
+    case match::Verdict::Unsure:
+      return "unsure";
+    case match::Verdict::NoJoin:
+      break;
+  }
+  return "no join";
+}
+
+std::string match_json(const match::Fragment& a, const match::Fragment& b, const match::Options& options,
+                       const match::Result& result, double seconds) {
+  ordered_json candidates = ordered_json::array();
+  for (const match::Candidate& candidate : result.candidates) {
+    candidates.push_back({{"pose", matrix(candidate.pose)},
+                          {"score", candidate.score},
+                          {"facet_a", candidate.facet_a},
+                          {"facet_b", candidate.facet_b},
+                          {"error", error_json(candidate.error)}});
+  }
+  const bool found = !result.candidates.empty();
+  const ordered_json json = {
+      {"schema", "rejoin.match/1"},
+      {"a", fragment_json(a)},
+      {"b", fragment_json(b)},
+      {"pose", found ? candidates[0]["pose"] : ordered_json()},
+      {"score", found ? result.candidates[0].score : 0.0},
+      {"verdict", name_of(result.verdict)},
+      {"error", error_json(found ? result.candidates[0].error : match::JointError())},
+      {"candidates", candidates},
+      {"search", search_json(options, result, seconds)},
+      {"backend", {{"name", zbuffer::name_of(result.backend)}, {"renderer", result.renderer}}},
+      {"warnings", result.warnings},
+      {"version", kVersion}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace rejoin::cli

@@ -1,0 +1,17 @@
+/// The machine-readable result of `rejoin match`, schema rejoin.match/1.
+#pragma once
+
+#include <string>
+
+#include "match/match.hpp"
+
+namespace rejoin::cli {
+
+/// \param seconds  wall time of the whole run; the only value that may differ between two equal runs
+std::string match_json(const match::Fragment& a, const match::Fragment& b, const match::Options& options,
+                       const match::Result& result, double seconds);
+
+/// "join", "unsure", "no join"
+const char* name_of(match::Verdict verdict);
+
+}  // namespace rejoin::cli

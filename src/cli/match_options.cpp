@@ -1,0 +1,75 @@
+#include "cli/match_options.hpp"
+
+#include "cli/arguments.hpp"
+#include "cli/command.hpp"
+
+namespace rejoin::cli {
+namespace {
+
+const Choices<match::Search> kSearches = {{"sweep", match::Search::Sweep}, {"esa", match::Search::Esa}};
+const Choices<std::optional<match::Constraint>> kConstraints = {{"none", match::Constraint::None},
+                                                                {"direction", match::Constraint::Direction},
+                                                                {"material", match::Constraint::Material}};
+
+void add_directions(CLI::App& app, const char* name, std::vector<std::string>& texts) {
+  app.add_option(name, texts, "fracture direction, may be repeated")
+      ->type_name("x,y,z")
+      ->expected(1)
+      ->take_all();
+}
+
+void add_facets(CLI::App& app, const char* name, std::vector<int>& numbers) {
+  app.add_option(name, numbers, "facets that may join (rejoin facets)")
+      ->type_name("N,N,...")
+      ->delimiter(',')
+      ->expected(1)
+      ->take_all()
+      ->check(in_range(0, 1e6));
+}
+
+}  // namespace
+
+void MatchOptions::define(CLI::App& app) {
+  app.option_defaults()->group("Search");
+  add_choice(app, "--search", options_.search, kSearches, "over facets, or the paper's annealing");
+  add_choice(app, "--constraint", constraint_, kConstraints, "what is known");
+  add_directions(app, "--direction-a", directions_a_);
+  add_directions(app, "--direction-b", directions_b_);
+  app.add_option("--tolerance", options_.tolerance_deg, "how far directions may be off (10)")
+      ->type_name("DEG")
+      ->check(in_range(0, 45));
+  app.add_option("--material-a", material_a_, "axis of the material, such as its layers")->type_name("x,y,z");
+  app.add_option("--material-b", material_b_, "the same of B")->type_name("x,y,z");
+  add_facets(app, "--facets-a", options_.facets_a);
+  add_facets(app, "--facets-b", options_.facets_b);
+  app.add_option("--resolution", options_.resolution, "pixels across a depth map, 8 to 2048 (128)")
+      ->type_name("N")
+      ->check(in_range(8, 2048));
+  add_choice(app, "--backend", options_.backend, backend_choices(), "what draws");
+  app.add_option("--chains", options_.chains, "annealing chains side by side, 1 to 256 (8)")
+      ->type_name("N")
+      ->check(in_range(1, 256));
+  app.add_option("--seed", options_.seed, "of the random numbers (1)")->type_name("S");
+}
+
+match::Options MatchOptions::values() const {
+  match::Options options = options_;
+  options.directions_a = parse_directions("--direction-a", directions_a_);
+  options.directions_b = parse_directions("--direction-b", directions_b_);
+  if (!material_a_.empty()) options.material_a = parse_direction("--material-a", material_a_);
+  if (!material_b_.empty()) options.material_b = parse_direction("--material-b", material_b_);
+  if (options.material_a.has_value() != options.material_b.has_value()) {
+    throw UsageError(options.material_a ? "--material-b" : "--material-a", "is missing",
+                     "give the material axis of both fragments");
+  }
+  const bool any_direction = !options.directions_a.empty() || !options.directions_b.empty();
+  options.constraint = constraint_.value_or(any_direction        ? match::Constraint::Direction
+                                            : options.material_a ? match::Constraint::Material
+                                                                 : match::Constraint::None);
+  if (options.constraint == match::Constraint::Material && !options.material_a) {
+    throw UsageError("--constraint material", "needs --material-a and --material-b", "add them as x,y,z");
+  }
+  return options;
+}
+
+}  // namespace rejoin::cli
