@@ -43,7 +43,7 @@ struct Fragment {
   std::string path;
   mesh::Mesh scan;            ///< as loaded (after clean-up)
   mesh::Mesh surface;         ///< triangles at full resolution: the scan, or the surface of its cloud
-  mesh::Mesh coarse;          ///< about 10,000 faces, for depth maps of the whole fragment
+  mesh::Mesh coarse;          ///< a level of detail for depth maps: at most 40,000 faces
   mesh::Segmentation facets;  ///< of `surface`
   double diameter = 0;        ///< mesh units
   double resolution = 0;      ///< sample spacing, mesh units

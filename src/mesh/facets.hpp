@@ -1,4 +1,4 @@
-/// Fracture against original surface, and fracture surface cut into facets.
+/// Fracture against original surface, and the surface cut into facets.
 #pragma once
 
 #include <cstdint>
@@ -6,31 +6,49 @@
 
 #include "core/rigid.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/samples.hpp"
 
 namespace rejoin::mesh {
 
 /// One piece of surface that is seen as a whole from its mean normal.
 struct Facet {
-  std::vector<std::uint32_t> faces;   ///< into the segmented mesh
-  glm::dvec3 normal{0, 0, 1};         ///< area-weighted mean, unit, outwards
-  glm::dvec3 centre{0.0};             ///< area-weighted, relative to the mesh's origin
-  glm::dvec3 along{1, 0, 0};          ///< longest in-plane direction, unit
-  double length = 0;                  ///< extent along `along`, mesh units
-  double width = 0;                   ///< extent across it
-  double area = 0;                    ///< squared mesh units
-  double roughness = 0;               ///< how irregular: rms deviation of the normals from their smoothed course, radians
-  bool fracture = false;              ///< broken surface (may join), else original surface
+  std::vector<std::uint32_t> samples;  ///< into Segmentation::samples
+  glm::dvec3 normal{0, 0, 1};          ///< mean, unit, outwards
+  glm::dvec3 centre{0.0};              ///< mean of the samples, relative to the mesh's origin
+  glm::dvec3 along{1, 0, 0};           ///< longest in-plane direction, unit, perpendicular to normal
+  double length = 0;                   ///< extent along `along`, mesh units
+  double width = 0;                    ///< extent across it
+  double area = 0;                     ///< squared mesh units
+  double roughness = 0;                ///< mean of the samples' roughness
+  bool fracture = false;               ///< broken surface (may join), else original surface
 };
 
+/// Which surface a sample belongs to.
+enum class Surface : std::uint8_t { Original, Fracture };
+
 struct Segmentation {
-  std::vector<Facet> facets;          ///< fracture facets first, largest first in each class
-  std::vector<int> facet_of_face;     ///< index into facets, -1 where none
-  double wall_thickness = 0;          ///< most frequent wall thickness, mesh units; 0 for a solid piece
+  Samples samples;                 ///< of the segmented mesh
+  std::vector<glm::vec3> normals;  ///< per sample, smoothed over about three spacings
+  std::vector<Surface> surface;    ///< per sample
+  std::vector<float>
+      roughness;  ///< per sample: rms distance from the local quadric, as a fraction of its radius
+  std::vector<int> facet_of_sample;  ///< index into facets, -1 where none
+  std::vector<Facet> facets;         ///< fracture facets first, largest first in each class
+  double wall_thickness = 0;         ///< most frequent wall thickness, mesh units; 0 for a solid piece
+  double sample_area = 0;            ///< surface that a sample stands for, squared mesh units
 };
 
 /// Segments a surface.
-/// \pre the mesh has faces
-/// \source papaioannou 2002, section 6.2 (mean normals of the most irregular compact facets)
+///
+/// Thin-walled pieces: a point whose inward ray meets the opposite wall from behind at 0.5 to 1.8 wall
+/// thicknesses is original surface, the rest is fracture.  Solid pieces: facets that are clearly rougher than
+/// the smoothest are fracture; where roughness does not tell, every facet counts as fracture.  Facets grow
+/// over smoothed normals from the flattest places. \pre the mesh has faces \source papaioannou 2002,
+/// section 6.2 (mean normals of the most irregular compact facets)
 Segmentation segment(const Mesh& mesh);
+
+/// For every face of `mesh` (the segmented one, or another level of detail of it) the facet of the nearest
+/// sample, or -1.
+std::vector<int> facet_of_faces(const Segmentation& segmentation, const Mesh& mesh);
 
 }  // namespace rejoin::mesh

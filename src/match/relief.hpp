@@ -1,0 +1,52 @@
+/// Slope maps of single facets: what the sweep correlates.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "mesh/facets.hpp"
+#include "mesh/mesh.hpp"
+
+namespace rejoin::match {
+
+/// A facet's own triangles in its plane frame: x along, y across, z along the facet's mean normal, origin at
+/// its centre.
+struct FacetPatch {
+  std::vector<glm::vec3> points;  ///< mesh units
+  std::vector<glm::uvec3> faces;
+  glm::dmat3 frame{1.0};   ///< columns x, y, z in the mesh's axes; right-handed
+  glm::dvec3 centre{0.0};  ///< relative to the mesh's origin
+  double length = 0;       ///< extents of the points along x and y, mesh units
+  double width = 0;
+  double area = 0;  ///< squared mesh units, from the segmentation
+};
+
+/// \param facet_of_face  what mesh::facet_of_faces() gave for `mesh`
+FacetPatch cut_patch(const mesh::Mesh& mesh, const std::vector<int>& facet_of_face,
+                     const mesh::Segmentation& segmentation, int facet);
+
+/// Slopes of a facet's relief on a regular grid.
+struct ReliefMap {
+  int width = 0;
+  int height = 0;
+  double pitch = 0;               ///< mesh units a pixel
+  glm::dvec2 low{0.0};            ///< plane coordinates of pixel (0, 0)'s lower corner
+  std::vector<float> height_map;  ///< relief, mesh units, NaN = background
+  std::vector<float> slope_u;     ///< forward differences / pitch; 0 where mask is 0
+  std::vector<float> slope_v;
+  std::vector<float> mask;  ///< 1 where both slopes are known and not steep, else 0
+  int pixels = 0;           ///< sum of mask
+};
+
+/// Slopes steeper than this are left out: they belong to the facet's edge or to undercuts.
+inline constexpr float kSteepest = 2.5F;
+
+/// The relief as it is seen from outside along +z.
+ReliefMap relief_of(const FacetPatch& patch, double pitch);
+
+/// The relief that a partner facing this patch would need: the patch is turned over (half a turn about y),
+/// then by `turn_rad` about z, and its slopes are taken of the surface that it turns to its partner. A
+/// perfect partner's map has the same slopes.
+ReliefMap facing_relief_of(const FacetPatch& patch, double pitch, double turn_rad);
+
+}  // namespace rejoin::match

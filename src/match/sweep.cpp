@@ -1,0 +1,190 @@
+#include "match/sweep.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.hpp"
+
+namespace rejoin::match {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kAcross = 7.0;       // pixels across a strip
+constexpr double kMapSide = 36.0;     // pixels across a plate
+constexpr double kElongated = 3.0;    // length over mean width from which a facet is a strip
+constexpr double kStripTurn = 0.35;   // strips lie along each other within 20 degrees
+constexpr double kSmallFacet = 0.02;  // of the largest facet's area: too small to tell
+
+double mean_width(const FacetPatch& patch) {
+  return patch.area / std::max(patch.length, 1e-30);
+}
+bool is_strip(const FacetPatch& patch) {
+  return patch.length > kElongated * mean_width(patch);
+}
+
+double pitch_for(const FacetPatch& a, const FacetPatch& b, double resolution) {
+  const double across = std::min(mean_width(a), mean_width(b)) / kAcross;
+  const double side = std::sqrt(std::min(a.area, b.area)) / kMapSide;
+  return std::max(std::min(across, side), resolution);
+}
+
+std::vector<double> turns_for(const FacetPatch& a, const FacetPatch& b, double pitch, double step_px) {
+  const double reach = 0.5 * std::min(a.length, b.length);
+  const double step = std::clamp(step_px * pitch / reach, 0.02, 0.2);
+  std::vector<double> turns;
+  if (is_strip(a) && is_strip(b)) {
+    const int side = static_cast<int>(std::ceil(kStripTurn / step));
+    for (const double base : {0.0, kPi}) {
+      for (int k = -side; k <= side; ++k) turns.push_back(base + k * kStripTurn / side);
+    }
+    return turns;
+  }
+  const int count = static_cast<int>(std::ceil(2.0 * kPi / step));
+  for (int k = 0; k < count; ++k) turns.push_back(2.0 * kPi * k / count);
+  return turns;
+}
+
+/// Pose of a peak: the half turn, the turn, the shift; then the mean tilt; then contact at the mean height.
+Rigid pose_of_peak(const FacetPatch& a, const FacetPatch& b, const ReliefMap& map_a, const ReliefMap& map_b,
+                   const Agreement& peak, double turn_rad) {
+  const glm::dmat3 half_turn(-1, 0, 0, 0, 1, 0, 0, 0, -1);
+  const glm::dmat3 turn = axis_rotation({0, 0, 1}, turn_rad) * half_turn;
+  const glm::dvec2 shift = map_a.low - map_b.low + map_a.pitch * glm::dvec2(peak.shift_u, peak.shift_v);
+  glm::dvec2 middle(0.0);
+  double offset = 0.0;
+  double count = 0.0;
+  for (int j = std::max(0, peak.shift_v); j < std::min(map_a.height, map_b.height + peak.shift_v); ++j) {
+    for (int i = std::max(0, peak.shift_u); i < std::min(map_a.width, map_b.width + peak.shift_u); ++i) {
+      const auto p = static_cast<std::size_t>(j * map_a.width + i);
+      const auto q = static_cast<std::size_t>((j - peak.shift_v) * map_b.width + (i - peak.shift_u));
+      if (map_a.mask[p] * map_b.mask[q] == 0.0F) continue;
+      middle += map_a.low + map_a.pitch * glm::dvec2(i + 0.5, j + 0.5);
+      offset += static_cast<double>(map_a.height_map[p] + map_b.height_map[q]);
+      count += 1.0;
+    }
+  }
+  if (count > 0.0) {
+    middle /= count;
+    offset /= count;
+  }
+  const Rigid in_plane{turn, glm::dvec3(shift, offset)};
+  const double slope = glm::length(glm::dvec2(peak.tilt));
+  Rigid tilt;
+  if (slope > 1e-9) {
+    const glm::dvec3 axis(peak.tilt.y / slope, -peak.tilt.x / slope, 0.0);
+    tilt.rotation = axis_rotation(axis, std::atan(slope));
+    const glm::dvec3 pivot(middle, 0.0);
+    tilt.translation = pivot - tilt.rotation * pivot;
+  }
+  const Rigid from_a{a.frame, a.centre};
+  const Rigid from_b{b.frame, b.centre};
+  return from_a * tilt * in_plane * inverse(from_b);
+}
+
+struct Task {
+  int facet_a;
+  int facet_b;
+};
+
+bool better(const SweepHit& x, const SweepHit& y) {
+  if (x.agreement.score != y.agreement.score) return x.agreement.score > y.agreement.score;
+  if (x.facet_a != y.facet_a) return x.facet_a < y.facet_a;
+  if (x.facet_b != y.facet_b) return x.facet_b < y.facet_b;
+  return x.turn_rad < y.turn_rad;
+}
+
+/// How far two poses put the corners of B's box apart, root mean square.
+double pose_distance(const Rigid& x, const Rigid& y, double reach) {
+  const glm::dmat3 d = x.rotation - y.rotation;
+  double sum = 0.0;
+  for (int k = 0; k < 3; ++k) sum += glm::dot(d[k], d[k]);
+  const glm::dvec3 t = x.translation - y.translation;
+  return std::sqrt(glm::dot(t, t) + sum * reach * reach / 3.0);
+}
+
+std::vector<SweepHit> distinct(std::vector<SweepHit> hits, double near, double reach, std::size_t most) {
+  std::sort(hits.begin(), hits.end(), better);
+  std::vector<SweepHit> kept;
+  for (const auto& hit : hits) {
+    const bool known = std::any_of(kept.begin(), kept.end(), [&](const SweepHit& other) {
+      return pose_distance(hit.pose, other.pose, reach) < near;
+    });
+    if (!known) kept.push_back(hit);
+    if (kept.size() == most) break;
+  }
+  return kept;
+}
+
+std::vector<SweepHit> sweep_facets(const FacetPatch& a, const FacetPatch& b, const Task& task,
+                                   double resolution, const SweepOptions& options) {
+  const double pitch = pitch_for(a, b, resolution);
+  const auto turns = turns_for(a, b, pitch, options.turn_step_px);
+  const ReliefMap map_a = relief_of(a, pitch);
+  std::vector<ReliefMap> maps_b;
+  int width = 0;
+  int height = 0;
+  for (const double turn : turns) {
+    maps_b.push_back(facing_relief_of(b, pitch, turn));
+    width = std::max(width, maps_b.back().width);
+    height = std::max(height, maps_b.back().height);
+  }
+  Correlator correlator(map_a, width, height, CorrelateOptions{});
+  std::vector<SweepHit> hits;
+  for (std::size_t t = 0; t < turns.size(); ++t) {
+    for (const Agreement& peak : correlator.peaks(maps_b[t])) {
+      hits.push_back({task.facet_a, task.facet_b, turns[t], pitch, peak,
+                      pose_of_peak(a, b, map_a, maps_b[t], peak, turns[t])});
+    }
+  }
+  return distinct(std::move(hits), 3.0 * pitch, 0.5 * std::min(a.length, b.length),
+                  static_cast<std::size_t>(options.per_pair_of_facets));
+}
+
+std::vector<int> candidates(const Fragment& fragment, const std::vector<int>& chosen) {
+  std::vector<int> list;
+  double largest = 0.0;
+  for (const auto& facet : fragment.facets.facets) {
+    if (facet.fracture) largest = std::max(largest, facet.area);
+  }
+  for (int f = 0; f < static_cast<int>(fragment.facets.facets.size()); ++f) {
+    const auto& facet = fragment.facets.facets[static_cast<std::size_t>(f)];
+    const bool wanted = chosen.empty() ? facet.fracture && facet.area > kSmallFacet * largest
+                                       : std::find(chosen.begin(), chosen.end(), f) != chosen.end();
+    if (wanted) list.push_back(f);
+  }
+  return list;
+}
+
+std::vector<FacetPatch> patches_of(const Fragment& fragment, const std::vector<int>& list) {
+  const auto facet_of_face = mesh::facet_of_faces(fragment.facets, fragment.coarse);
+  std::vector<FacetPatch> patches;
+  for (const int f : list) patches.push_back(cut_patch(fragment.coarse, facet_of_face, fragment.facets, f));
+  return patches;
+}
+
+}  // namespace
+
+std::vector<SweepHit> sweep(const Fragment& a, const Fragment& b, const SweepOptions& options,
+                            const Context& context) {
+  const auto list_a = candidates(a, options.facets_a);
+  const auto list_b = candidates(b, options.facets_b);
+  const auto patches_a = patches_of(a, list_a);
+  const auto patches_b = patches_of(b, list_b);
+  const double resolution = std::max(a.resolution, b.resolution);
+  std::vector<std::vector<SweepHit>> found(patches_a.size() * patches_b.size());
+  parallel_for(found.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) {
+      if (context.cancelled()) return;
+      const std::size_t i = k / patches_b.size();
+      const std::size_t j = k % patches_b.size();
+      if (patches_a[i].faces.empty() || patches_b[j].faces.empty()) continue;
+      found[k] = sweep_facets(patches_a[i], patches_b[j], {list_a[i], list_b[j]}, resolution, options);
+    }
+  });
+  std::vector<SweepHit> hits;
+  for (const auto& part : found) hits.insert(hits.end(), part.begin(), part.end());
+  return distinct(std::move(hits), 3.0 * resolution, 0.25 * std::min(a.diameter, b.diameter),
+                  static_cast<std::size_t>(options.most));
+}
+
+}  // namespace rejoin::match

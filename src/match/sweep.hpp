@@ -1,0 +1,35 @@
+/// The sweep: all turns and shifts of facet against facet.
+#pragma once
+
+#include <vector>
+
+#include "core/context.hpp"
+#include "core/rigid.hpp"
+#include "match/correlate.hpp"
+#include "match/match.hpp"
+
+namespace rejoin::match {
+
+/// One peak of the sweep.
+struct SweepHit {
+  int facet_a = -1;
+  int facet_b = -1;
+  double turn_rad = 0;  ///< of B's patch about A's facet normal, after the half turn
+  double pitch = 0;     ///< of the maps, mesh units
+  Agreement agreement;
+  Rigid pose;  ///< B -> A, both relative to their mesh's origin
+};
+
+struct SweepOptions {
+  std::vector<int> facets_a;  ///< facets that may join; empty: all fracture facets
+  std::vector<int> facets_b;
+  double turn_step_px = 2.0;    ///< how far the end of the shorter facet moves between turns, pixels
+  int per_pair_of_facets = 12;  ///< peaks kept a pair of facets
+  int most = 96;                ///< peaks kept in all
+};
+
+/// Peaks of all pairs of facets, best first, near-equal poses once.  Deterministic for any number of threads.
+std::vector<SweepHit> sweep(const Fragment& a, const Fragment& b, const SweepOptions& options,
+                            const Context& context);
+
+}  // namespace rejoin::match

@@ -1,0 +1,235 @@
+#include "mesh/facets.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <queue>
+
+#include "core/parallel.hpp"
+#include "mesh/detail/grow.hpp"
+#include "mesh/point_index.hpp"
+#include "mesh/thickness.hpp"
+
+namespace rejoin::mesh {
+namespace {
+
+constexpr std::size_t kSamples = 12000;
+constexpr double kSmoothRadius = 2.0;   // spacings: about 12 neighbours
+constexpr double kQuadricRadius = 4.0;  // spacings: about 50 neighbours for 6 unknowns
+constexpr float kWallLow = 0.5F;        // of the wall thickness
+constexpr float kWallHigh = 1.8F;
+constexpr float kWallSquare = 0.8F;      // the opposite wall may lean by 37 degrees
+constexpr double kStripRadius = 0.7;     // of the wall thickness
+constexpr double kSamplesPerWall = 7.0;  // across a sherd's fracture strip
+constexpr double kMostSamples = 60000.0;
+
+using Lists = std::vector<std::vector<std::uint32_t>>;
+
+Lists neighbours_within(const Samples& samples, double radius) {
+  const PointIndex index(samples.points);
+  Lists lists(samples.size());
+  parallel_for(samples.size(), 256, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      index.within(samples.points[i], static_cast<float>(radius), lists[i]);
+  });
+  return lists;
+}
+
+/// Mean normal of the neighbours that look the same way (the far side of a thin wall does not).
+std::vector<glm::vec3> smooth_normals(const std::vector<glm::vec3>& normals, const Lists& near) {
+  std::vector<glm::vec3> smooth(normals.size());
+  parallel_for(normals.size(), 256, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      glm::vec3 sum(0.0F);
+      for (const auto k : near[i]) {
+        if (glm::dot(normals[k], normals[i]) > 0.0F) sum += normals[k];
+      }
+      const float length = glm::length(sum);
+      smooth[i] = length > 0.0F ? sum / length : normals[i];
+    }
+  });
+  return smooth;
+}
+
+/// Fracture normals averaged across the whole strip, so that growing follows the strip's course and not its
+/// bevels.
+std::vector<glm::vec3> strip_normals(const Segmentation& s) {
+  const Lists near = neighbours_within(s.samples, kStripRadius * s.wall_thickness);
+  std::vector<glm::vec3> smooth = s.normals;
+  for (std::size_t i = 0; i < smooth.size(); ++i) {
+    if (s.surface[i] != Surface::Fracture) continue;
+    glm::vec3 sum(0.0F);
+    for (const auto k : near[i]) {
+      if (s.surface[k] == Surface::Fracture && glm::dot(s.normals[k], s.normals[i]) > 0.0F)
+        sum += s.normals[k];
+    }
+    if (glm::length(sum) > 0.0F) smooth[i] = glm::normalize(sum);
+  }
+  return smooth;
+}
+
+/// rms distance of the neighbours from the quadric fitted to them, as a fraction of the radius.
+float quadric_residual(const Samples& samples, const std::vector<glm::vec3>& normals,
+                       const std::vector<std::uint32_t>& near, std::size_t i, double radius) {
+  const glm::dmat3 frame = frame_of(glm::normalize(glm::dvec3(normals[i])));
+  Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
+  Eigen::Matrix<double, 6, 1> right = Eigen::Matrix<double, 6, 1>::Zero();
+  double squares = 0.0;
+  int count = 0;
+  for (const auto k : near) {
+    if (glm::dot(normals[k], normals[i]) < 0.3F) continue;
+    const glm::dvec3 p = glm::dvec3(samples.points[k] - samples.points[i]) * frame / radius;
+    Eigen::Matrix<double, 6, 1> row;
+    row << 1.0, p.x, p.y, p.x * p.x, p.x * p.y, p.y * p.y;
+    normal += row * row.transpose();
+    right += row * p.z;
+    squares += p.z * p.z;
+    ++count;
+  }
+  if (count < 12) return 0.0F;
+  const Eigen::Matrix<double, 6, 1> fit = normal.ldlt().solve(right);
+  return static_cast<float>(std::sqrt(std::max(0.0, squares - fit.dot(right)) / (count - 6)));
+}
+
+std::vector<float> roughness_of(const Samples& samples, const std::vector<glm::vec3>& normals) {
+  const double radius = kQuadricRadius * samples.spacing;
+  const Lists near = neighbours_within(samples, radius);
+  std::vector<float> rough(samples.size());
+  parallel_for(samples.size(), 128, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      rough[i] = quadric_residual(samples, normals, near[i], i, radius);
+  });
+  return rough;
+}
+
+/// Wall points see the opposite wall; then every point takes the vote of its surroundings, twice.
+void classify_thin(Segmentation& s, const InwardRays& rays, const Lists& near) {
+  const auto t = static_cast<float>(s.wall_thickness);
+  for (std::size_t i = 0; i < s.samples.size(); ++i) {
+    const bool wall =
+        rays.square[i] > kWallSquare && rays.length[i] > kWallLow * t && rays.length[i] < kWallHigh * t;
+    s.surface[i] = wall ? Surface::Original : Surface::Fracture;
+  }
+  for (int round = 0; round < 2; ++round) {
+    std::vector<Surface> voted = s.surface;
+    for (std::size_t i = 0; i < s.samples.size(); ++i) {
+      int fracture = 0;
+      int all = 0;
+      for (const auto k : near[i]) {
+        if (glm::dot(s.normals[k], s.normals[i]) < 0.5F) continue;
+        fracture += s.surface[k] == Surface::Fracture ? 1 : 0;
+        ++all;
+      }
+      voted[i] = 2 * fracture > all ? Surface::Fracture : Surface::Original;
+    }
+    s.surface = std::move(voted);
+  }
+}
+
+void measure(Facet& facet, const Segmentation& s) {
+  glm::dvec3 normal(0.0);
+  glm::dvec3 centre(0.0);
+  double rough = 0.0;
+  for (const auto i : facet.samples) {
+    normal += glm::dvec3(s.normals[i]);
+    centre += glm::dvec3(s.samples.points[i]);
+    rough += static_cast<double>(s.roughness[i]);
+  }
+  const auto count = static_cast<double>(facet.samples.size());
+  facet.normal = glm::length(normal) > 0 ? glm::normalize(normal) : glm::dvec3(0, 0, 1);
+  facet.centre = centre / count;
+  facet.roughness = rough / count;
+  facet.area = count * s.sample_area;
+  const glm::dmat3 frame = frame_of(facet.normal);
+  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+  for (const auto i : facet.samples) {
+    const glm::dvec3 p = (glm::dvec3(s.samples.points[i]) - facet.centre) * frame;
+    spread += Eigen::Vector2d(p.x, p.y) * Eigen::RowVector2d(p.x, p.y);
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(spread);
+  const Eigen::Vector2d axis = solver.eigenvectors().col(1);
+  facet.along = frame * glm::dvec3(axis.x(), axis.y(), 0.0);
+  const glm::dvec3 across = glm::cross(facet.normal, facet.along);
+  glm::dvec2 low(1e300);
+  glm::dvec2 high(-1e300);
+  for (const auto i : facet.samples) {
+    const glm::dvec3 p = glm::dvec3(s.samples.points[i]) - facet.centre;
+    const glm::dvec2 q(glm::dot(p, facet.along), glm::dot(p, across));
+    low = glm::min(low, q);
+    high = glm::max(high, q);
+  }
+  facet.length = high.x - low.x;
+  facet.width = high.y - low.y;
+}
+
+void sort_facets(Segmentation& s) {
+  std::stable_sort(s.facets.begin(), s.facets.end(), [](const Facet& a, const Facet& b) {
+    return a.fracture != b.fracture ? a.fracture : a.area > b.area;
+  });
+  std::fill(s.facet_of_sample.begin(), s.facet_of_sample.end(), -1);
+  for (std::size_t f = 0; f < s.facets.size(); ++f) {
+    for (const auto i : s.facets[f].samples) s.facet_of_sample[i] = static_cast<int>(f);
+  }
+}
+
+}  // namespace
+
+Segmentation segment(const Mesh& mesh) {
+  Segmentation s;
+  s.samples = sample_surface(mesh, kSamples);
+  Lists near = neighbours_within(s.samples, kSmoothRadius * s.samples.spacing);
+  s.normals = smooth_normals(s.samples.normals, near);
+  InwardRays rays = cast_inwards(mesh, s.samples, s.normals);
+  s.wall_thickness = wall_thickness(rays, diameter(mesh));
+  const bool thin = s.wall_thickness > 0;
+  if (thin && s.samples.spacing > s.wall_thickness / kSamplesPerWall) {
+    const double finer = s.samples.spacing * kSamplesPerWall / s.wall_thickness;
+    const double count = static_cast<double>(s.samples.size()) * finer * finer;
+    s.samples = sample_surface(mesh, static_cast<std::size_t>(std::min(count, kMostSamples)));
+    near = neighbours_within(s.samples, kSmoothRadius * s.samples.spacing);
+    s.normals = smooth_normals(s.samples.normals, near);
+    rays = cast_inwards(mesh, s.samples, s.normals);
+  }
+  s.sample_area = surface_area(mesh) / static_cast<double>(std::max<std::size_t>(1, s.samples.size()));
+  s.roughness = roughness_of(s.samples, s.normals);
+  s.surface.assign(s.samples.size(), Surface::Fracture);
+  if (thin) classify_thin(s, rays, near);
+
+  detail::GrowOptions options;
+  options.spacing = s.samples.spacing;
+  options.smallest = std::max<std::size_t>(20, s.samples.size() / 300);
+  s.facet_of_sample.assign(s.samples.size(), -1);
+  for (auto& members :
+       detail::grow_facets(s.samples.points, thin ? strip_normals(s) : s.normals, s.surface, near, options)) {
+    Facet facet;
+    facet.fracture = s.surface[members.front()] == Surface::Fracture;
+    facet.samples = std::move(members);
+    measure(facet, s);
+    s.facets.push_back(std::move(facet));
+  }
+  sort_facets(s);
+  return s;
+}
+
+std::vector<int> facet_of_faces(const Segmentation& segmentation, const Mesh& mesh) {
+  const PointIndex index(segmentation.samples.points);
+  const auto normals = face_normals(mesh);
+  std::vector<int> facets(mesh.faces.size(), -1);
+  parallel_for(mesh.faces.size(), 512, [&](std::size_t first, std::size_t last) {
+    std::vector<std::uint32_t> near;
+    for (std::size_t f = first; f < last; ++f) {
+      const glm::uvec3 face = mesh.faces[f];
+      const glm::vec3 middle = (mesh.vertices[face.x] + mesh.vertices[face.y] + mesh.vertices[face.z]) / 3.0F;
+      index.nearest(middle, 4, near);
+      for (const auto i : near) {
+        if (glm::dot(segmentation.normals[i], normals[f]) < 0.0F) continue;
+        facets[f] = segmentation.facet_of_sample[i];
+        break;
+      }
+    }
+  });
+  return facets;
+}
+
+}  // namespace rejoin::mesh

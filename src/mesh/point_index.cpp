@@ -1,0 +1,68 @@
+#include "mesh/point_index.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nanoflann.hpp>
+
+namespace rejoin::mesh {
+namespace {
+
+struct Points {
+  std::vector<glm::vec3> data;
+  std::size_t kdtree_get_point_count() const { return data.size(); }
+  float kdtree_get_pt(std::size_t i, std::size_t axis) const { return data[i][static_cast<int>(axis)]; }
+  template <class Box>
+  bool kdtree_get_bbox(Box& /*unused*/) const {
+    return false;
+  }
+};
+
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Points>, Points, 3,
+                                                 std::uint32_t>;
+
+}  // namespace
+
+struct PointIndex::Impl {
+  Points points;
+  std::unique_ptr<Tree> tree;
+};
+
+PointIndex::PointIndex(std::span<const glm::vec3> points) : impl_(std::make_unique<Impl>()) {
+  impl_->points.data.assign(points.begin(), points.end());
+  if (points.empty()) return;
+  impl_->tree = std::make_unique<Tree>(3, impl_->points, nanoflann::KDTreeSingleIndexAdaptorParams(12));
+}
+
+PointIndex::~PointIndex() = default;
+PointIndex::PointIndex(PointIndex&&) noexcept = default;
+PointIndex& PointIndex::operator=(PointIndex&&) noexcept = default;
+
+void PointIndex::within(const glm::vec3& point, float radius, std::vector<std::uint32_t>& found) const {
+  found.clear();
+  if (!impl_->tree) return;
+  thread_local std::vector<std::pair<std::uint32_t, float>> matches;
+  matches.clear();
+  nanoflann::SearchParams params;
+  params.sorted = false;
+  impl_->tree->radiusSearch(&point.x, radius * radius, matches, params);
+  for (const auto& match : matches) found.push_back(match.first);
+  std::sort(found.begin(), found.end());
+}
+
+std::optional<std::pair<std::uint32_t, float>> PointIndex::nearest(const glm::vec3& point) const {
+  if (!impl_->tree) return std::nullopt;
+  std::uint32_t index = 0;
+  float squared = 0;
+  impl_->tree->knnSearch(&point.x, 1, &index, &squared);
+  return std::pair(index, std::sqrt(squared));
+}
+
+void PointIndex::nearest(const glm::vec3& point, std::size_t k, std::vector<std::uint32_t>& found) const {
+  found.assign(std::min(k, impl_->points.data.size()), 0);
+  if (!impl_->tree) return;
+  thread_local std::vector<float> squared;
+  squared.resize(found.size());
+  impl_->tree->knnSearch(&point.x, found.size(), found.data(), squared.data());
+}
+
+}  // namespace rejoin::mesh

@@ -1,0 +1,36 @@
+/// Neighbours of points (nanoflann behind it).
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace rejoin::mesh {
+
+/// k-d tree over points that it keeps a copy of.  Const members may be called from several threads.
+class PointIndex {
+ public:
+  explicit PointIndex(std::span<const glm::vec3> points);
+  ~PointIndex();
+  PointIndex(PointIndex&&) noexcept;
+  PointIndex& operator=(PointIndex&&) noexcept;
+
+  /// Indices of all points within `radius`, in ascending order of index.
+  void within(const glm::vec3& point, float radius, std::vector<std::uint32_t>& found) const;
+
+  /// Nearest point and its distance; nullopt if there are no points.
+  std::optional<std::pair<std::uint32_t, float>> nearest(const glm::vec3& point) const;
+
+  /// The k nearest, nearest first.
+  void nearest(const glm::vec3& point, std::size_t k, std::vector<std::uint32_t>& found) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace rejoin::mesh

@@ -1,0 +1,77 @@
+#include "mesh/thickness.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/parallel.hpp"
+#include "mesh/ray_scene.hpp"
+
+namespace rejoin::mesh {
+namespace {
+
+constexpr float kSquare = 0.8F;  // rays that leave within 37 degrees of the normal count for the thickness
+constexpr double kBinsPerOctave = 12.0;  // 6 % wide bins: finer than the walls of a thrown pot vary
+constexpr double kThinnest = 1.0 / 4096.0;
+constexpr double kMostOfSize = 0.25;
+
+}  // namespace
+
+InwardRays cast_inwards(const Mesh& mesh, const Samples& samples, const std::vector<glm::vec3>& normals) {
+  const RayScene scene(mesh);
+  const auto face_normal = face_normals(mesh);
+  InwardRays rays;
+  rays.length.assign(samples.size(), std::numeric_limits<float>::infinity());
+  rays.square.assign(samples.size(), 0.0F);
+  const auto skip = static_cast<float>(0.05 * samples.spacing);
+  parallel_for(samples.size(), 256, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const glm::vec3 inwards = -normals[i];
+      float from = skip;
+      // A ray may first graze the roughness it starts from: go on until it leaves the body.
+      for (int tries = 0; tries < 4; ++tries) {
+        const auto hit = scene.first_hit(samples.points[i], inwards, from, std::numeric_limits<float>::max());
+        if (!hit) break;
+        const float square = glm::dot(face_normal[hit->face], inwards);
+        if (square > 0.0F) {
+          rays.length[i] = hit->distance;
+          rays.square[i] = square;
+          break;
+        }
+        from = hit->distance + skip;
+      }
+    }
+  });
+  return rays;
+}
+
+double wall_thickness(const InwardRays& rays, double size) {
+  const auto bins = static_cast<std::size_t>(std::log2(1.0 / kThinnest) * kBinsPerOctave) + 1;
+  std::vector<double> histogram(bins, 0.0);
+  for (std::size_t i = 0; i < rays.length.size(); ++i) {
+    if (!(rays.square[i] > kSquare)) continue;
+    const double ratio = static_cast<double>(rays.length[i]) / size;
+    if (ratio <= kThinnest || ratio >= 1.0) continue;
+    ++histogram[static_cast<std::size_t>(std::log2(ratio / kThinnest) * kBinsPerOctave)];
+  }
+  double most = 0.0;
+  std::size_t mode = 0;
+  for (std::size_t i = 1; i + 1 < bins; ++i) {
+    const double smooth = histogram[i - 1] + 2.0 * histogram[i] + histogram[i + 1];
+    if (smooth <= most) continue;
+    most = smooth;
+    mode = i;
+  }
+  const double guess = size * kThinnest * std::exp2((static_cast<double>(mode) + 0.5) / kBinsPerOctave);
+  std::vector<float> near;
+  for (std::size_t i = 0; i < rays.length.size(); ++i) {
+    const double ratio = static_cast<double>(rays.length[i]) / guess;
+    if (rays.square[i] > kSquare && ratio > 0.6 && ratio < 1.6) near.push_back(rays.length[i]);
+  }
+  if (guess > kMostOfSize * size || 3 * near.size() < rays.length.size()) return 0.0;
+  const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
+  std::nth_element(near.begin(), middle, near.end());
+  return static_cast<double>(*middle);
+}
+
+}  // namespace rejoin::mesh
