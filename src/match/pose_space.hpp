@@ -39,7 +39,7 @@ struct Alignment {
 zbuffer::ViewPair view_of(std::span<const double> pose, const Alignment& alignment, RotationOrder order);
 
 /// Centre of the smallest ball around the vertices (to about 1 % of its radius), relative to the mesh's
-/// origin.  That radius is at most 0.58 of the diameter, so the view cube of side 1.3 R holds the fragment at
+/// origin.  That radius is at most 0.613 of the diameter (Jung), so the view cube of side 1.3 R holds the fragment at
 /// every rotation; around the surface's centroid it does not always.
 glm::dvec3 view_centre(const mesh::Mesh& mesh);
 
