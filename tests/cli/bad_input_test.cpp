@@ -1,0 +1,113 @@
+/// Faulty files and places: one line that names them, exit code 1.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "run_program.hpp"
+
+namespace rejoin::cli::testing {
+namespace {
+
+const std::string kTetrahedron =
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+    "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+/// A binary PLY of `promised` vertices with the data of `given` only.
+std::string binary_ply(const std::string& promised, int given) {
+  std::string text = "ply\nformat binary_little_endian 1.0\nelement vertex " + promised +
+                     "\nproperty float x\nproperty float y\nproperty float z\nelement face " + promised +
+                     "\nproperty list uchar int vertex_indices\nend_header\n";
+  for (int i = 0; i < given; ++i) {
+    const float point[3] = {static_cast<float>(i), static_cast<float>(i * i), 1.0F};
+    text.append(reinterpret_cast<const char*>(point), sizeof point);
+  }
+  return text;
+}
+
+struct BadFile {
+  const char* name;
+  const char* file;
+  std::string content;
+};
+
+class BadFileTest : public ::testing::TestWithParam<BadFile> {};
+
+void expect_failure(const Finished& finished, const std::string& names) {
+  EXPECT_EQ(finished.exit_code, 1);
+  EXPECT_EQ(finished.out, "");
+  EXPECT_TRUE(is_one_line(finished.err)) << finished.err;
+  EXPECT_NE(finished.err.find(names), std::string::npos) << finished.err;
+}
+
+TEST_P(BadFileTest, IsNamedInOneLineAndExitsWithOne) {
+  const TemporaryFolder folder;
+  const std::string path = folder / GetParam().file;
+  write_file(path, GetParam().content);
+  expect_failure(run({"facets", path}), path + ": ");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Files, BadFileTest,
+    ::testing::Values(BadFile{"Empty", "empty.ply", ""}, BadFile{"EmptyStl", "empty.stl", ""},
+                      BadFile{"EmptyObj", "empty.obj", ""}, BadFile{"EmptyDraco", "empty.drc", ""},
+                      BadFile{"EmptyGlb", "empty.glb", ""}, BadFile{"Text", "text.ply", "Dear diary,\n"},
+                      BadFile{"TextAsGlb", "text.glb", "Dear diary,\n"},
+                      BadFile{"TextAsOff", "text.off", "Dear diary,\n"},
+                      BadFile{"TextAsStl", "text.stl", "Dear diary,\n"},
+                      BadFile{"Truncated", "cut.ply", binary_ply("100", 50)},
+                      BadFile{"BillionFaces", "huge.ply", binary_ply("1000000000", 10)},
+                      BadFile{"Nan", "nan.ply", replaced(kTetrahedron, "0 1 0", "0 nan 0")},
+                      BadFile{"Infinite", "inf.ply", replaced(kTetrahedron, "0 1 0", "0 inf 0")},
+                      BadFile{"IndexOutOfRange", "index.ply", replaced(kTetrahedron, "3 1 2 3", "3 1 2 9")},
+                      BadFile{"ZeroArea", "flat.obj",
+                              "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nf 1 2 3\nf 2 3 4\n"},
+                      BadFile{"SingleTriangle", "one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
+                      BadFile{"UnknownExtension", "scan.xyzzy", kTetrahedron},
+                      BadFile{"NoExtension", "scan", kTetrahedron}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST(BadPlace, MissingFileIsNamed) {
+  expect_failure(run({"facets", "no/such/scan.ply"}), "no/such/scan.ply");
+}
+
+TEST(BadPlace, FolderAsScanIsNamed) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "scan.ply");
+  expect_failure(run({"facets", folder / "scan.ply"}), folder / "scan.ply");
+}
+
+TEST(BadPlace, NanNamesItsVertex) {
+  const TemporaryFolder folder;
+  write_file(folder / "nan.ply", replaced(kTetrahedron, "0 1 0", "0 nan 0"));
+  EXPECT_NE(run({"facets", folder / "nan.ply"}).err.find("vertex 2"), std::string::npos);
+}
+
+// A file where a folder is needed stops even root, whom no permission does.
+TEST(BadPlace, OutputsAreTestedBeforeTheScansAreRead) {
+  const TemporaryFolder folder;
+  write_file(folder / "file", "x");
+  const std::string inside = folder / "file/inside";
+  const std::string missing = folder / "missing/match.json";
+  expect_failure(run({"match", "a.ply", "b.ply", "--out", inside}), inside);
+  expect_failure(run({"match", "a.ply", "b.ply", "--json", inside}), inside);
+  expect_failure(run({"match", "a.ply", "b.ply", "--json", missing}), missing);
+  expect_failure(run({"facets", "a.ply", "--json", folder / ""}), folder / "");
+  expect_failure(run({"info", "--json", inside}), inside);
+}
+
+TEST(BadPlace, TheSameFileUnderAnotherNameIsWrongUse) {
+  const TemporaryFolder folder;
+  write_file(folder / "a.ply", kTetrahedron);
+  std::filesystem::create_symlink(folder / "a.ply", folder / "b.ply");
+  const Finished finished = run({"match", folder / "a.ply", folder / "b.ply"});
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_TRUE(is_one_line(finished.err)) << finished.err;
+}
+
+}  // namespace
+}  // namespace rejoin::cli::testing

@@ -1,0 +1,146 @@
+/// rejoin match as a whole, on a block cut along a known surface.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "../match/planted_block.hpp"
+#include "mesh/save.hpp"
+#include "run_program.hpp"
+
+namespace rejoin::cli::testing {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Two halves of a block, saved; searching them takes seconds even with sanitizers.
+class MatchCommand : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    mesh::save(a, pair.a);
+    mesh::save(b, pair.b);
+  }
+
+  /// The JSON of a run with these further arguments.
+  ordered_json match(const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"match", a, b, "--json", json};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Finished finished = run(arguments);
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    return ordered_json::parse(read_file(json));
+  }
+
+  const TemporaryFolder folder;
+  const match::testing::PlantedPair pair = match::testing::planted_pair(7, 32);
+  const std::string a = folder / "a.ply";
+  const std::string b = folder / "b.ply";
+  const std::string json = folder / "match.json";
+};
+
+Rigid pose_of(const ordered_json& rows) {
+  Rigid pose;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) pose.rotation[column][row] = rows[row][column];
+    pose.translation[row] = rows[row][3];
+  }
+  return pose;
+}
+
+std::vector<std::string> keys(const ordered_json& object) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : object.items()) names.push_back(name);
+  return names;
+}
+
+/// The text without the one value that may differ between two runs.
+std::string without_seconds(ordered_json result) {
+  result["search"].erase("seconds");
+  return result.dump();
+}
+
+// The evaluation of real scans calls 5 degrees and 2 % of the diameter (107 mm here) found.
+TEST_F(MatchCommand, FindsThePlantedPose) {
+  const ordered_json result = match({});
+  const Rigid pose = pose_of(result["pose"]);
+  EXPECT_LT(glm::degrees(angle_between(pose, pair.truth)), 5.0);
+  const glm::dvec3 centre = pair.b.origin + mesh::centroid(pair.b);
+  EXPECT_LT(glm::distance(pose(centre), pair.truth(centre)), 0.02 * 107);
+  EXPECT_NE(result["verdict"], "no join");
+}
+
+TEST_F(MatchCommand, WritesTheKeysOfTheSchema) {
+  const ordered_json result = match({});
+  EXPECT_EQ(result["schema"], "rejoin.match/1");
+  EXPECT_EQ(result["a"]["path"], a);
+  EXPECT_EQ(keys(result["b"]), (std::vector<std::string>{"path", "faces", "diameter"}));
+  EXPECT_EQ(keys(result["error"]), (std::vector<std::string>{"depth", "slope", "raycast", "overlap",
+                                                             "contact_area", "gap_median", "penetration"}));
+  EXPECT_EQ(result["pose"], result["candidates"][0]["pose"]);
+  EXPECT_EQ(result["pose"][3], ordered_json({0.0, 0.0, 0.0, 1.0}));
+  for (const char* key : {"evaluations", "seconds", "seed"})
+    EXPECT_TRUE(result["search"].contains(key)) << key;
+  EXPECT_EQ(keys(result["backend"]), (std::vector<std::string>{"name", "renderer"}));
+  EXPECT_TRUE(result.contains("version"));
+  double last = 1.0;
+  for (const ordered_json& candidate : result["candidates"]) {
+    EXPECT_LE(candidate["score"], last);
+    last = candidate["score"];
+  }
+}
+
+TEST_F(MatchCommand, GivesTheSameBytesForAnyNumberOfThreadsAndAgain) {
+  const std::string one = without_seconds(match({"--threads", "1", "--seed", "5"}));
+  EXPECT_EQ(one, without_seconds(match({"--threads", "2", "--seed", "5"})));
+  EXPECT_EQ(one, without_seconds(match({"--threads", "1", "--seed", "5"})));
+}
+
+TEST_F(MatchCommand, KeepsResultsOnStdoutAndNothingOnStderrInAPipe) {
+  const Finished finished = run({"match", a, b});
+  EXPECT_EQ(finished.exit_code, 0);
+  EXPECT_NE(finished.out.find("score"), std::string::npos);
+  EXPECT_EQ(finished.err, "");
+}
+
+TEST_F(MatchCommand, QuietSaysNothing) {
+  const Finished finished = run({"match", a, b, "--quiet"});
+  EXPECT_EQ(finished.exit_code, 0);
+  EXPECT_EQ(finished.out, "");
+  EXPECT_EQ(finished.err, "");
+}
+
+TEST_F(MatchCommand, VerboseTellsStageTimesOnStderr) {
+  const Finished finished = run({"match", a, b, "--verbose"});
+  EXPECT_NE(finished.err.find("evaluations"), std::string::npos);
+  EXPECT_EQ(finished.out.find("evaluations"), std::string::npos);
+}
+
+TEST_F(MatchCommand, FacetThatIsNotThereIsWrongUse) {
+  const Finished finished = run({"match", a, b, "--facets-b", "0,999"});
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_TRUE(is_one_line(finished.err)) << finished.err;
+  EXPECT_NE(finished.err.find("999"), std::string::npos);
+}
+
+// Without a vendor library EGL has no display, whatever the machine.
+TEST_F(MatchCommand, MissingBackendIsOneLineAndExitsWithOne) {
+  const Finished finished =
+      run({"match", a, b, "--backend", "gpu"}, {"__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent"});
+  EXPECT_EQ(finished.exit_code, 1);
+  EXPECT_EQ(finished.out, "");
+  EXPECT_TRUE(is_one_line(finished.err)) << finished.err;
+  EXPECT_NE(finished.err.find("gpu"), std::string::npos) << finished.err;
+}
+
+// The search is made far longer than the time until the signal comes; the limit of CTest ends a run that
+// ignores it.
+TEST_F(MatchCommand, InterruptWritesWhatWasFoundAndExitsWith130) {
+  Running running({"match", a, b, "--json", json, "--verbose", "--search", "esa", "--chains", "256",
+                   "--resolution", "512"});
+  ASSERT_TRUE(running.wait_for_stderr("b.ply: "));
+  running.interrupt();
+  const Finished finished = running.finish();
+  EXPECT_EQ(finished.exit_code, 130) << finished.err;
+  EXPECT_EQ(ordered_json::parse(read_file(json))["search"]["interrupted"], true);
+}
+
+}  // namespace
+}  // namespace rejoin::cli::testing

@@ -1,0 +1,101 @@
+/// Wrong use, help and version.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "core/version.hpp"
+#include "run_program.hpp"
+
+namespace rejoin::cli::testing {
+namespace {
+
+struct WrongUse {
+  const char* name;
+  std::vector<std::string> arguments;
+  const char* says;  ///< what the message must contain
+};
+
+class WrongUseTest : public ::testing::TestWithParam<WrongUse> {};
+
+TEST_P(WrongUseTest, IsOneLineOnStderrAndExitsWithTwo) {
+  const Finished finished = run(GetParam().arguments);
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_EQ(finished.out, "");
+  EXPECT_TRUE(is_one_line(finished.err)) << finished.err;
+  EXPECT_NE(finished.err.find(GetParam().says), std::string::npos) << finished.err;
+}
+
+// The files need not exist: wrong use is found before any file is touched.
+INSTANTIATE_TEST_SUITE_P(
+    CommandLine, WrongUseTest,
+    ::testing::Values(
+        WrongUse{"NoCommand", {}, "--help"}, WrongUse{"UnknownCommand", {"glue"}, "glue"},
+        WrongUse{"UnknownOption", {"match", "a.ply", "b.ply", "--colour"}, "--colour"},
+        WrongUse{"NoFragments", {"match"}, "A is required"},
+        WrongUse{"OneFragment", {"match", "a.ply"}, "B is required"},
+        WrongUse{"ThreeFragments", {"match", "a.ply", "b.ply", "c.ply"}, "c.ply"},
+        WrongUse{"SameFragmentTwice", {"match", "a.ply", "a.ply"}, "same file"},
+        WrongUse{"DirectionOfLengthZero", {"match", "a.ply", "b.ply", "--direction-a", "0,0,0"}, "length 0"},
+        WrongUse{
+            "DirectionOfTwoNumbers", {"match", "a.ply", "b.ply", "--direction-b", "1,0"}, "--direction-b"},
+        WrongUse{"DirectionNotFinite", {"match", "a.ply", "b.ply", "--direction-a", "1,nan,0"}, "1,nan,0"},
+        WrongUse{"NegativeTolerance", {"match", "a.ply", "b.ply", "--tolerance", "-1"}, "0 to 45"},
+        WrongUse{"LargeTolerance", {"match", "a.ply", "b.ply", "--tolerance", "46"}, "0 to 45"},
+        WrongUse{"ToleranceNotANumber", {"match", "a.ply", "b.ply", "--tolerance", "nan"}, "0 to 45"},
+        WrongUse{"SmallResolution", {"match", "a.ply", "b.ply", "--resolution", "7"}, "8 to 2048"},
+        WrongUse{"LargeResolution", {"match", "a.ply", "b.ply", "--resolution", "4096"}, "8 to 2048"},
+        WrongUse{"NoChains", {"match", "a.ply", "b.ply", "--chains", "0"}, "1 to 256"},
+        WrongUse{"NegativeThreads", {"match", "a.ply", "b.ply", "--threads", "-2"}, "--threads"},
+        WrongUse{"UnknownBackend", {"match", "a.ply", "b.ply", "--backend", "voodoo"}, "raster"},
+        WrongUse{"UnknownSearch", {"match", "a.ply", "b.ply", "--search", "luck"}, "sweep|esa"},
+        WrongUse{"UnknownConstraint", {"match", "a.ply", "b.ply", "--constraint", "hope"}, "direction"},
+        WrongUse{"HalfAMaterial", {"match", "a.ply", "b.ply", "--material-a", "0,0,1"}, "--material-b"},
+        WrongUse{
+            "MaterialWithoutAxes", {"match", "a.ply", "b.ply", "--constraint", "material"}, "--material-a"},
+        WrongUse{"NegativeFacet", {"match", "a.ply", "b.ply", "--facets-a", "-1"}, "--facets-a"},
+        WrongUse{"OptionWithoutValue", {"match", "a.ply", "b.ply", "--json"}, "--json"},
+        WrongUse{"FacetsNotPly", {"facets", "a.ply", "--ply", "a.obj"}, "--ply"},
+        WrongUse{"BenchResolution", {"bench", "--resolution", "1"}, "--resolution"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+class HelpTest : public ::testing::TestWithParam<const char*> {};
+
+// A terminal of 80 x 24 leaves 23 lines above the next prompt; match, with the most options, may take a few
+// more.
+TEST_P(HelpTest, FitsAScreen) {
+  const std::string command = GetParam();
+  const Finished finished = command.empty() ? run({"--help"}) : run({command, "--help"});
+  EXPECT_EQ(finished.exit_code, 0);
+  EXPECT_EQ(finished.err, "");
+  EXPECT_EQ(finished.out.rfind("Usage: rejoin", 0), 0U);
+  std::istringstream lines(finished.out);
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) EXPECT_LE(line.size(), 80U) << line;
+  EXPECT_LE(count, command == "match" ? 28 : 23);
+}
+
+INSTANTIATE_TEST_SUITE_P(Commands, HelpTest,
+                         ::testing::Values("", "match", "compare", "facets", "info", "bench"),
+                         [](const auto& info) { return *info.param ? std::string(info.param) : "Root"; });
+
+TEST(Version, IsTheProjectsVersionOnStdout) {
+  const Finished finished = run({"--version"});
+  EXPECT_EQ(finished.exit_code, 0);
+  EXPECT_EQ(finished.out, std::string("rejoin ") + kVersion + "\n");
+}
+
+TEST(GenerateDocs, WritesAManPageForEveryCommandAndACompletionThatBashReads) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run({"generate-docs", folder / "docs"}).exit_code, 0);
+  for (const char* command : {"match", "compare", "facets", "info", "bench"}) {
+    const std::string page = read_file(folder / ("docs/rejoin-" + std::string(command) + ".1"));
+    EXPECT_NE(page.find(".SH SYNOPSIS"), std::string::npos) << command;
+  }
+  EXPECT_NE(read_file(folder / "docs/rejoin-match.1").find("\\-\\-direction\\-a"), std::string::npos);
+  const std::string check = "bash -n " + (folder / "docs/rejoin.bash");
+  EXPECT_EQ(std::system(check.c_str()), 0);
+}
+
+}  // namespace
+}  // namespace rejoin::cli::testing
