@@ -4,7 +4,7 @@
 // Coverage is decided in exact integers on a grid of 2^SUBPIXEL_BITS steps a pixel, as the CPU rasteriser does
 // (src/zbuffer/detail/fixed_triangle.hpp): both draw the same pixels.
 //
-// Defined before: LOCAL_SIZE, SUBPIXEL_BITS, REACH, LARGE_PIXELS, LARGE_LIST, and for maps in shared memory SHARED_SIDE
+// Defined before: LOCAL_SIZE, SUBPIXEL_BITS, REACH, LARGE_PIXELS, LARGE_LIST, TEAM_SIZE, and for maps in shared memory SHARED_SIDE
 // (the resolution).
 
 layout(local_size_x = LOCAL_SIZE) in;
@@ -19,6 +19,7 @@ layout(std430, binding = 2) writeonly buffer Records { uvec4 records[]; };
 uniform uvec2 mesh_a;   // first word, count of triangles
 uniform uvec2 mesh_b;
 uniform uint pose_count;
+uniform uint probe_steps;   // a few
 
 #ifdef SHARED_SIDE
 const int side = SHARED_SIDE;
@@ -32,12 +33,14 @@ uint map_base = gl_WorkGroupID.x * 2u * resolution * resolution;
 #endif
 
 const uint kEmpty = 0xffffffffu;
+const uint kUnfinished = 0xffffffffu;   // in place of the overlap: the driver cut the work short
 // A box of up to so many grid steps a side keeps every edge function within 31 bits.
-const int kSmallBox = 31 * 1024;
+const int kNarrow = 31 * 1024;
 const int kSubpixels = 1 << SUBPIXEL_BITS;
 
-shared uint large[LARGE_LIST];   // triangles that are better drawn by the whole group
+shared uint large[LARGE_LIST];   // triangles of many pixels, drawn by a team of invocations each
 shared uint large_count;
+shared uint unfinished;
 
 // Floats, negative ones included, in the order of unsigned integers.
 uint ordered(float depth) {
@@ -69,7 +72,7 @@ struct Triangle {
   vec3 depths;
   ivec2 low;    // first pixel
   ivec2 size;   // <= 0 where no pixel centre is in the box
-  bool small;   // few pixels: one invocation draws it
+  bool narrow;  // edge functions fit into 32 bits
 };
 
 vec3 corner(uvec2 mesh, uint triangle, uint which, vec4 x, vec4 y, vec4 z) {
@@ -99,7 +102,7 @@ Triangle triangle_of(uvec2 mesh, uint index, vec4 x, vec4 y, vec4 z) {
   const int centre = kSubpixels / 2;
   t.low = max((low + (centre - 1)) >> SUBPIXEL_BITS, ivec2(0));   // the first centre at or above low
   t.size = min((high - centre) >> SUBPIXEL_BITS, ivec2(side - 1)) - t.low + 1;
-  t.small = max(high.x - low.x, high.y - low.y) <= kSmallBox && t.size.x * t.size.y <= LARGE_PIXELS;
+  t.narrow = max(high.x - low.x, high.y - low.y) <= kNarrow;
   return t;
 }
 
@@ -112,7 +115,7 @@ int edge_at(ivec2 start, ivec2 along, ivec2 point) {
   return along.x * (point.y - start.y) - along.y * (point.x - start.x);
 }
 
-void draw_small(Triangle t, uint map) {
+void draw_narrow(Triangle t, uint map) {
   const ivec2 pq = t.q - t.p;
   const ivec2 pr = t.r - t.p;
   const int area = pq.x * pr.y - pr.x * pq.y;
@@ -155,7 +158,7 @@ double edge_far(ivec2 start, ivec2 end, ivec2 point) {
 }
 
 // Every `stride`-th pixel of the box from `first`, in doubles: exact for triangles of any size.
-void draw_large(Triangle t, uint map, int first, int stride) {
+void draw_wide(Triangle t, uint map, int first, int stride) {
   double area = edge_far(t.p, t.q, t.r);
   if (area == 0.0) return;
   if (area < 0.0) {
@@ -185,38 +188,51 @@ void draw(uvec2 mesh, uint row, uint map) {
   for (uint index = gl_LocalInvocationIndex; index < mesh.y; index += LOCAL_SIZE) {
     const Triangle t = triangle_of(mesh, index, x, y, z);
     if (t.size.x <= 0 || t.size.y <= 0) continue;
-    if (t.small) {
-      draw_small(t, map);
-    } else {
+    if (!t.narrow || t.size.x * t.size.y > LARGE_PIXELS) {
       const uint place = atomicAdd(large_count, 1u);
       if (place < LARGE_LIST) {
         large[place] = index;
-      } else {
-        draw_large(t, map, 0, 1);
+        continue;
       }
+    }
+    if (t.narrow) {
+      draw_narrow(t, map);
+    } else {
+      draw_wide(t, map, 0, 1);
     }
   }
   synchronize();
   const uint listed = min(large_count, LARGE_LIST);
-  for (uint k = 0u; k < listed; ++k) {
-    draw_large(triangle_of(mesh, large[k], x, y, z), map, int(gl_LocalInvocationIndex), LOCAL_SIZE);
+  for (uint k = gl_LocalInvocationIndex / TEAM_SIZE; k < listed; k += LOCAL_SIZE / TEAM_SIZE) {
+    draw_wide(triangle_of(mesh, large[k], x, y, z), map, int(gl_LocalInvocationIndex % TEAM_SIZE), TEAM_SIZE);
   }
   synchronize();
   if (gl_LocalInvocationIndex == 0u) large_count = 0u;
   synchronize();
 }
 
+// llvmpipe leaves every loop of an invocation for good once that invocation has gone round 65,535 times in all, and
+// says nothing.  A short loop at the end shows whether it has happened.
+bool loops_work() {
+  uint steps = 0u;
+  for (uint k = 0u; k < probe_steps; ++k) ++steps;
+  return steps == probe_steps;
+}
+
 void main() {
-  if (gl_LocalInvocationIndex == 0u) large_count = 0u;
   const uint pixels = uint(side * side);
   for (uint pose = gl_WorkGroupID.x; pose < pose_count; pose += gl_NumWorkGroups.x) {
+    if (gl_LocalInvocationIndex == 0u) large_count = unfinished = 0u;
     for (uint p = gl_LocalInvocationIndex; p < 2u * pixels; p += LOCAL_SIZE) maps[map_base + p] = kEmpty;
     synchronize();
     draw(mesh_a, 6u * pose, map_base);
     draw(mesh_b, 6u * pose + 3u, map_base + pixels);
     const Record record = compare(side);
+    if (!loops_work()) atomicOr(unfinished, 1u);
+    synchronize();
     if (gl_LocalInvocationIndex == 0u) {
-      records[pose] = uvec4(floatBitsToUint(record.sum), record.overlap, record.covered_a, record.covered_b);
+      const uint overlap = unfinished != 0u ? kUnfinished : record.overlap;
+      records[pose] = uvec4(floatBitsToUint(record.sum), overlap, record.covered_a, record.covered_b);
     }
     synchronize();
   }

@@ -15,19 +15,24 @@ constexpr GLuint kRecords = 2;
 constexpr GLuint kMaps = 3;
 
 constexpr int kLargeList = 512;  // words of shared memory for triangles drawn by the whole group
-constexpr std::size_t kPosesADispatch = 4096;
 
 struct Tuning {
   int group_size;
-  int large_pixels;             ///< a triangle whose box has more is drawn by the whole group
+  int team_size;  ///< invocations that draw a large triangle together; the width of the processor's vectors
+  int large_pixels;             ///< a triangle whose box has more is drawn by such a team
   std::size_t groups;           ///< work groups in flight, each with maps of its own
+  std::size_t poses_a_group;    ///< in one dispatch, at most: see loops_work() in shaders/score.comp
   std::size_t triangle_budget;  ///< triangles a dispatch: keeps one below a tenth of a second, or drivers
                                 ///< with a watchdog stop it
 };
 
 Tuning tuning_of(const Limits& limits) {
-  if (limits.software) return {std::min(limits.group_size, 64), 64, 16, std::size_t{1} << 24U};
-  return {std::min(static_cast<int>(std::bit_floor(static_cast<unsigned>(limits.group_size))), 512), 64, 512,
+  if (limits.software) return {std::min(limits.group_size, 64), 8, 64, 16, 1, std::size_t{1} << 24U};
+  return {std::min(static_cast<int>(std::bit_floor(static_cast<unsigned>(limits.group_size))), 512),
+          32,
+          64,
+          512,
+          16,
           std::size_t{1} << 27U};
 }
 
@@ -44,8 +49,10 @@ void append_corners(const Surface& mesh, std::vector<float>& words) {
   }
 }
 
+constexpr std::uint32_t kEmpty = 0xffffffffU;  // as in score.comp
+
 float decode(std::uint32_t key) {
-  if (key == 0xffffffffU) return kBackground;
+  if (key == kEmpty) return kBackground;
   return std::bit_cast<float>((key & 0x80000000U) != 0 ? key & 0x7fffffffU : ~key);
 }
 
@@ -67,7 +74,7 @@ class ComputeDrawing : public Drawing {
     groups_ = std::clamp<std::size_t>(std::min(engine.limits().storage_bytes, kMostMapBytes) / map_bytes, 1,
                                       tuning_.groups);
     poses_a_dispatch_ = std::clamp<std::size_t>(
-        tuning_.triangle_budget / (count_a_ + count_b_ + map_bytes / 64), 1, kPosesADispatch);
+        tuning_.triangle_budget / (count_a_ + count_b_ + map_bytes / 64), 1, groups_ * tuning_.poses_a_group);
     const Functions& gl = engine.gl();
     meshes_ = make_buffer(gl, GL_SHADER_STORAGE_BUFFER, std::span<const float>(words));
     poses_ = make_buffer(gl, GL_SHADER_STORAGE_BUFFER, poses_a_dispatch_ * sizeof(PairPlacement), nullptr,
@@ -81,31 +88,37 @@ class ComputeDrawing : public Drawing {
     for (std::size_t first = 0; first < poses.size(); first += poses_a_dispatch_) {
       const std::size_t count = std::min(poses_a_dispatch_, poses.size() - first);
       dispatch(poses.subspan(first, count), shared_);
-      const Functions& gl = engine_.gl();
-      gl.BindBuffer(GL_SHADER_STORAGE_BUFFER, records_.name());
-      gl.GetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(count * sizeof(Record)),
-                          records.data() + first);
-      engine_.context().check("scoring");
+      read(records_, records.subspan(first, count));
     }
   }
 
-  std::pair<std::vector<float>, std::vector<float>> depths(const PairPlacement& pose) override {
+  std::optional<std::pair<std::vector<float>, std::vector<float>>> depths(
+      const PairPlacement& pose) override {
     dispatch(std::span(&pose, 1), false);
+    Record record{};
+    read(records_, std::span(&record, 1));
+    if (record.overlap == kUnfinished) return std::nullopt;
     const std::size_t pixels = static_cast<std::size_t>(resolution_) * resolution_;
     std::vector<std::uint32_t> keys(2 * pixels);
-    const Functions& gl = engine_.gl();
-    gl.BindBuffer(GL_SHADER_STORAGE_BUFFER, maps_.name());
-    gl.GetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(8 * pixels), keys.data());
-    engine_.context().check("reading the depth maps");
+    read(maps_, std::span(keys));
     std::vector<float> a(pixels);
     std::vector<float> b(pixels);
     std::transform(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(pixels), a.begin(), decode);
     std::transform(keys.begin() + static_cast<std::ptrdiff_t>(pixels), keys.end(), b.begin(), decode);
-    return {std::move(a), std::move(b)};
+    return std::pair{std::move(a), std::move(b)};
   }
 
  private:
   static constexpr std::size_t kMostMapBytes = std::size_t{256} << 20U;
+
+  template <typename Value>
+  void read(const Buffer& buffer, std::span<Value> values) {
+    const Functions& gl = engine_.gl();
+    gl.BindBuffer(GL_SHADER_STORAGE_BUFFER, buffer.name());
+    gl.GetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(values.size_bytes()),
+                        values.data());
+    engine_.context().check("scoring");
+  }
 
   void dispatch(std::span<const PairPlacement> poses, bool in_shared_memory) {
     const Functions& gl = engine_.gl();
@@ -115,6 +128,7 @@ class ComputeDrawing : public Drawing {
     gl.Uniform2ui(gl.GetUniformLocation(program, "mesh_a"), 0, count_a_);
     gl.Uniform2ui(gl.GetUniformLocation(program, "mesh_b"), first_b_, count_b_);
     gl.Uniform1ui(gl.GetUniformLocation(program, "pose_count"), static_cast<GLuint>(poses.size()));
+    gl.Uniform1ui(gl.GetUniformLocation(program, "probe_steps"), 3);
     if (!in_shared_memory) {
       if (maps_.name() == 0) make_maps();
       gl.Uniform1ui(gl.GetUniformLocation(program, "resolution"), static_cast<GLuint>(resolution_));
@@ -139,6 +153,7 @@ class ComputeDrawing : public Drawing {
     define("REACH", static_cast<int>(detail::kReach));
     define("LARGE_PIXELS", tuning_.large_pixels);
     define("LARGE_LIST", kLargeList);
+    define("TEAM_SIZE", tuning_.team_size);
     if (in_shared_memory) define("SHARED_SIDE", resolution_);
     return text;
   }
@@ -165,6 +180,12 @@ class ComputeDrawing : public Drawing {
 };
 
 }  // namespace
+
+bool suits_compute(const Limits& limits, const Surface& a, const Surface& b, int resolution) {
+  const std::size_t triangles = a.faces.size() + b.faces.size();
+  if (triangles * 9 * sizeof(float) > limits.storage_bytes) return false;
+  return !limits.software || (triangles <= 100'000 && resolution <= 512);
+}
 
 bool fits_shared_memory(const Limits& limits, int resolution) {
   const std::size_t maps = 8 * static_cast<std::size_t>(resolution) * resolution;

@@ -3,6 +3,7 @@
 
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -14,8 +15,8 @@ namespace rejoin::zbuffer::gl {
 
 /// What is drawn of a mesh.
 struct Surface {
-  std::span<const glm::vec3> vertices;  ///< mesh units, relative to the mesh's origin
-  std::vector<glm::uvec3> faces;        ///< without those that have a non-finite corner
+  std::vector<glm::vec3> vertices;  ///< mesh units, relative to the mesh's origin
+  std::vector<glm::uvec3> faces;    ///< without those that have a non-finite corner
 };
 
 /// (x, y in pixels, depth in mesh units) = rows * (corner, 1).
@@ -32,11 +33,13 @@ struct PairPlacement {
 
 /// What comes back for a pose, as in shaders/compare.glsl.
 struct Record {
-  float sum;  ///< depth in mesh units, per pixel step
-  std::uint32_t overlap;
+  float sum;              ///< depth in mesh units, per pixel step
+  std::uint32_t overlap;  ///< kUnfinished: the driver cut the work short, nothing here means anything
   std::uint32_t covered_a;
   std::uint32_t covered_b;
 };
+
+inline constexpr std::uint32_t kUnfinished = 0xffffffffU;
 
 /// Scores one pair of meshes.  Every member is called, and the object made and destroyed, inside an
 /// Engine::Session.
@@ -45,8 +48,10 @@ class Drawing {
   virtual ~Drawing() = default;
   /// records.size() == poses.size()
   virtual void score(std::span<const PairPlacement> poses, std::span<Record> records) = 0;
-  /// Depths of both maps in mesh units, NaN = background, as rendered.
-  virtual std::pair<std::vector<float>, std::vector<float>> depths(const PairPlacement& pose) = 0;
+  /// Depths of both maps in mesh units, NaN = background, as rendered; nullopt if the driver cut the work
+  /// short.
+  virtual std::optional<std::pair<std::vector<float>, std::vector<float>>> depths(
+      const PairPlacement& pose) = 0;
 };
 
 /// Everything in one compute dispatch: rasteriser, mirror, differences, sums.
@@ -54,6 +59,10 @@ class Drawing {
 std::unique_ptr<Drawing> make_compute_drawing(Engine& engine, const Surface& a, const Surface& b,
                                               int resolution, bool in_shared_memory);
 bool fits_shared_memory(const Limits& limits, int resolution);
+
+/// Whether the triangles fit into one buffer, and whether the work of one invocation stays below what a
+/// software driver does before it gives up (which comes back as kUnfinished).
+bool suits_compute(const Limits& limits, const Surface& a, const Surface& b, int resolution);
 
 /// The fixed pipeline draws many poses into the tiles of one float target; a compute shader then reduces
 /// every pair of tiles.

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -223,19 +225,20 @@ class EglContext : public Context {
 std::unique_ptr<Context> make_egl_context(const ContextOptions& options) {
   const Egl egl = open_egl(options);
   std::unique_ptr<Context> software;
-  std::string last = "no device and no surfaceless platform";
+  std::exception_ptr failure;
   for (const Candidate& candidate : list_candidates(egl)) {
     if (software && candidate.software) break;
     try {
       auto context = std::make_unique<EglContext>(egl, candidate, options.debug);
       if (!is_software_renderer(context->renderer())) return context;
       if (!software) software = std::move(context);
-    } catch (const BackendError& error) {
-      last = error.what();
+    } catch (const BackendError&) {
+      failure = std::current_exception();
     }
   }
   if (software) return software;
-  throw BackendError(kSubject, "EGL finds nothing to draw with (" + last + ")", kMend);
+  if (failure) std::rethrow_exception(failure);
+  throw BackendError(kSubject, "EGL knows no device and no surfaceless platform", kMend);
 }
 
 }  // namespace rejoin::zbuffer::gl

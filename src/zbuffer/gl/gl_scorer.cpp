@@ -1,6 +1,7 @@
 #include "zbuffer/gl/gl_scorer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -41,35 +42,43 @@ PairScore score_of(const Record& record, double view_side) {
 
 class GlScorer : public Scorer {
  public:
-  GlScorer(std::shared_ptr<Engine> engine, Backend backend, const ViewOptions& options)
-      : engine_(std::move(engine)), backend_(backend), options_(options) {}
+  GlScorer(std::shared_ptr<Engine> engine, Backend backend, const mesh::Mesh& a, const mesh::Mesh& b,
+           const ViewOptions& options, Path path)
+      : engine_(std::move(engine)),
+        backend_(backend),
+        options_(options),
+        surfaces_{surface_of(a), surface_of(b)} {
+    const Engine::Session session(*engine_);
+    const Limits& limits = engine_->limits();
+    const bool fits = fits_shared_memory(limits, options_.resolution);
+    if (path == Path::ComputeShared && !fits) {
+      throw BackendError(engine_->context().subject(), "the depth maps do not fit into shared memory",
+                         "choose a smaller --resolution");
+    }
+    const bool compute = suits_compute(limits, surfaces_[0], surfaces_[1], options_.resolution);
+    if (path == Path::Pipeline || (path == Path::Auto && !compute)) {
+      drawing_ = make_pipeline_drawing(*engine_, surfaces_[0], surfaces_[1], options_.resolution);
+    } else {
+      drawing_ = make_compute_drawing(*engine_, surfaces_[0], surfaces_[1], options_.resolution,
+                                      fits && path != Path::ComputeBuffer);
+    }
+  }
+
   ~GlScorer() override {
     try {
       const Engine::Session session(*engine_);
       drawing_.reset();
+      second_.reset();
     } catch (const BackendError&) {
       // The context is gone and its objects with it.
     }
   }
 
-  void load(const mesh::Mesh& a, const mesh::Mesh& b, Path path) {
-    const Engine::Session session(*engine_);
-    const Surface surface_a = surface_of(a);
-    const Surface surface_b = surface_of(b);
-    const bool fits = fits_shared_memory(engine_->limits(), options_.resolution);
-    if (path == Path::ComputeShared && !fits) {
-      throw BackendError(engine_->context().subject(), "the depth maps do not fit into shared memory",
-                         "choose a smaller --resolution");
-    }
-    if (path == Path::Pipeline) {
-      drawing_ = make_pipeline_drawing(*engine_, surface_a, surface_b, options_.resolution);
-    } else {
-      drawing_ = make_compute_drawing(*engine_, surface_a, surface_b, options_.resolution,
-                                      fits && path != Path::ComputeBuffer);
-    }
-  }
-
   void score(std::span<const ViewPair> poses, std::span<PairScore> scores) override {
+    if (poses.size() != scores.size()) {
+      throw InputError("scores", "there are " + std::to_string(scores.size()) + " places for " +
+                                     std::to_string(poses.size()) + " poses");
+    }
     std::vector<PairPlacement> placements(poses.size());
     std::transform(poses.begin(), poses.end(), placements.begin(),
                    [&](const ViewPair& pose) { return place(pose); });
@@ -77,16 +86,19 @@ class GlScorer : public Scorer {
     {
       const Engine::Session session(*engine_);
       drawing_->score(placements, records);
+      finish(placements, records);
     }
     std::transform(records.begin(), records.end(), scores.begin(),
                    [&](const Record& record) { return score_of(record, options_.view_side); });
   }
 
   std::pair<DepthMap, DepthMap> depth_maps(const ViewPair& pose) override {
+    const Engine::Session session(*engine_);
+    auto depths = drawing_->depths(place(pose));
+    if (!depths) depths = second().depths(place(pose));
     std::pair<DepthMap, DepthMap> maps{DepthMap(options_.resolution, options_.resolution),
                                        DepthMap(options_.resolution, options_.resolution)};
-    const Engine::Session session(*engine_);
-    std::tie(maps.first.depth, maps.second.depth) = drawing_->depths(place(pose));
+    std::tie(maps.first.depth, maps.second.depth) = std::move(depths.value());
     return maps;
   }
 
@@ -98,19 +110,40 @@ class GlScorer : public Scorer {
     return {placement(detail::projection_a(pose, options_)), placement(detail::projection_b(pose, options_))};
   }
 
+  /// Scores again what the first drawing could not finish.  Which poses these are depends on nothing but the
+  /// pose.
+  void finish(const std::vector<PairPlacement>& placements, std::vector<Record>& records) {
+    std::vector<std::size_t> open;
+    std::vector<PairPlacement> again;
+    for (std::size_t k = 0; k < records.size(); ++k) {
+      if (records[k].overlap != kUnfinished) continue;
+      open.push_back(k);
+      again.push_back(placements[k]);
+    }
+    if (open.empty()) return;
+    std::vector<Record> finished(open.size());
+    second().score(again, finished);
+    for (std::size_t k = 0; k < open.size(); ++k) records[open[k]] = finished[k];
+  }
+
+  Drawing& second() {
+    if (!second_) second_ = make_pipeline_drawing(*engine_, surfaces_[0], surfaces_[1], options_.resolution);
+    return *second_;
+  }
+
   std::shared_ptr<Engine> engine_;
   Backend backend_;
   ViewOptions options_;
+  std::array<Surface, 2> surfaces_;  ///< a and b
   std::unique_ptr<Drawing> drawing_;
+  std::unique_ptr<Drawing> second_;  ///< made when first needed
 };
 
 }  // namespace
 
 std::unique_ptr<Scorer> make_gl_scorer(std::shared_ptr<Engine> engine, Backend backend, const mesh::Mesh& a,
                                        const mesh::Mesh& b, const ViewOptions& options, Path path) {
-  auto scorer = std::make_unique<GlScorer>(std::move(engine), backend, detail::completed(a, b, options));
-  scorer->load(a, b, path);
-  return scorer;
+  return std::make_unique<GlScorer>(std::move(engine), backend, a, b, detail::completed(a, b, options), path);
 }
 
 }  // namespace rejoin::zbuffer::gl

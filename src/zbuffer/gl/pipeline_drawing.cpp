@@ -26,7 +26,7 @@ Drawable make_drawable(const Functions& gl, const Surface& mesh, std::size_t mos
   Drawable made;
   made.layout = make_vertex_array(gl);
   gl.BindVertexArray(made.layout.name());
-  made.vertices = make_buffer(gl, GL_ARRAY_BUFFER, mesh.vertices);
+  made.vertices = make_buffer(gl, GL_ARRAY_BUFFER, std::span<const glm::vec3>(mesh.vertices));
   gl.EnableVertexAttribArray(0);
   gl.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3), nullptr);
   made.placements = make_buffer(gl, GL_ARRAY_BUFFER, most_poses * sizeof(Placement), nullptr, GL_STREAM_DRAW);
@@ -72,7 +72,8 @@ class PipelineDrawing : public Drawing {
     }
   }
 
-  std::pair<std::vector<float>, std::vector<float>> depths(const PairPlacement& pose) override {
+  std::optional<std::pair<std::vector<float>, std::vector<float>>> depths(
+      const PairPlacement& pose) override {
     draw(std::span(&pose, 1));
     std::pair<std::vector<float>, std::vector<float>> read{read_tile(0), read_tile(1)};
     engine_.context().check("reading the depth maps");
@@ -134,7 +135,7 @@ class PipelineDrawing : public Drawing {
 
   void reduce(std::size_t count) {
     const Functions& gl = engine_.gl();
-    const int group = engine_.limits().software ? 64 : 256;
+    const int group = resolution_ > 512 ? engine_.limits().group_size : engine_.limits().software ? 64 : 256;
     const GLuint program = engine_.program({{GL_COMPUTE_SHADER, {"compare.glsl", "tile_compare.comp"}}},
                                            "#define LOCAL_SIZE " + std::to_string(group) + "\n");
     gl.UseProgram(program);
