@@ -28,7 +28,7 @@ struct Case {
 };
 
 Case planted(std::uint64_t seed) {
-  Case c{testing::planted_pair(seed, 20), {}, {}};
+  Case c{testing::planted_pair(seed, 16), {}, {}};
   c.a = bare_fragment(c.pair.a, "a");
   c.b = bare_fragment(c.pair.b, "b");
   return c;
@@ -39,8 +39,8 @@ Options with_directions(const Case& c) {
   options.constraint = Constraint::Direction;
   options.directions_a = {c.pair.direction_a};
   options.directions_b = {c.pair.direction_b};
-  options.resolution = 64;
-  options.chains = 16;
+  options.resolution = 48;
+  options.chains = 5;
   options.backend = zbuffer::Backend::Raster;
   return options;
 }
@@ -53,7 +53,7 @@ bool right(const Case& c, const Rigid& pose) {
 }
 
 TEST(EsaSearch, FindsAPlantedCutAlongGivenDirections) {
-  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+  for (const std::uint64_t seed : {1U, 2U}) {
     const Case c = planted(seed);
     EsaStats stats;
     const auto found = esa_search(c.a, c.b, with_directions(c), {}, Context(), &stats);
@@ -61,7 +61,7 @@ TEST(EsaSearch, FindsAPlantedCutAlongGivenDirections) {
     EXPECT_TRUE(right(c, found[0].pose)) << "seed " << seed;
     EXPECT_EQ(found[0].direction_a, 0);
     EXPECT_GT(stats.evaluations, 1000);
-    EXPECT_EQ(stats.convergence.size(), 16U);
+    EXPECT_EQ(stats.convergence.size(), 5U);
     EXPECT_EQ(stats.backend, zbuffer::Backend::Raster);
   }
 }
@@ -101,7 +101,7 @@ TEST(EsaSearch, HypothesesAreDistinctAndBestFirst) {
 TEST(EsaSearch, SameSeedSamePosesForAnyNumberOfThreads) {
   const Case c = planted(2);
   Options options = with_directions(c);
-  options.chains = 4;
+  options.chains = 2;
   const auto one = [&] {
     const ThreadLimit limit(1);
     return esa_search(c.a, c.b, options, {}, Context());
@@ -120,7 +120,7 @@ TEST(EsaSearch, MaterialAxisRestrictsThePosesToCollinearAxes) {
   options.constraint = Constraint::Material;
   options.directions_a.clear();
   options.directions_b.clear();
-  options.chains = 4;
+  options.chains = 2;
   const glm::dvec3 vein(1, 0, 0);  // of the block, along x
   options.material_a = c.pair.to_a.rotation * vein;
   options.material_b = c.pair.to_b.rotation * vein;
@@ -147,7 +147,7 @@ TEST(EsaSearch, CancelReturnsWhatWasFound) {
   EsaStats stats;
   esa_search(c.a, c.b, with_directions(c), {}, context, &stats);
   EXPECT_TRUE(stats.cancelled);
-  EXPECT_LE(stats.evaluations, 16);
+  EXPECT_LE(stats.evaluations, 5);
 }
 
 mesh::Facet facet(const glm::dvec3& normal, double area, double roughness, bool fracture) {
