@@ -16,21 +16,20 @@ namespace rejoin::zbuffer {
 
 /// How both fragments stand before the reference plane (p).
 ///
-/// Each fragment is centred, turned by its rotation, fragment A shifted in the plane; both are seen from +Z with (p) at
-/// z = +f_R / 2, so a point's depth is f_R / 2 - z.  B's map is mirrored when the two are compared (B faces A after a
-/// half turn about Y).
-/// \source papaioannou 2002, sections 2 and 3.4
+/// Each fragment is centred, turned by its rotation, fragment A shifted in the plane; both are seen from +Z
+/// with (p) at z = +f_R / 2, so a point's depth is f_R / 2 - z.  B's map is mirrored when the two are
+/// compared (B faces A after a half turn about Y). \source papaioannou 2002, sections 2 and 3.4
 struct ViewPair {
   glm::mat3 rotation_a{1.0F};
-  glm::vec2 shift_a{0.0F};      ///< (x1, y1), mesh units
+  glm::vec2 shift_a{0.0F};  ///< (x1, y1), mesh units
   glm::mat3 rotation_b{1.0F};
 };
 
 /// Sampling of the view volume, a cube.
 struct ViewOptions {
-  int resolution = 128;         ///< N_u = N_v, pixels, 8 .. 2048
-  double view_side = 0;         ///< f_R, mesh units; <= 0: 1.3 x the larger diameter
-  glm::vec3 centre_a{0.0F};     ///< relative to the mesh's origin; the point that goes to the view's middle
+  int resolution = 128;      ///< N_u = N_v, pixels, 8 .. 2048
+  double view_side = 0;      ///< f_R, mesh units; <= 0: 1.3 x the larger diameter
+  glm::vec3 centre_a{0.0F};  ///< relative to the mesh's origin; the point that goes to the view's middle
   glm::vec3 centre_b{0.0F};
 };
 
@@ -44,7 +43,8 @@ class Scorer {
  public:
   virtual ~Scorer() = default;
 
-  /// One score a pose; scores.size() == poses.size().  The same values for any number of threads and any split into calls.
+  /// One score a pose; scores.size() == poses.size().  The same values for any number of threads and any
+  /// split into calls.
   virtual void score(std::span<const ViewPair> poses, std::span<PairScore> scores) = 0;
 
   /// The two maps of one pose, each as rendered (B not mirrored), depths in mesh units.
@@ -56,8 +56,8 @@ class Scorer {
 };
 
 /// A scorer for two meshes (with faces).  Auto takes the fastest that works.
-/// \throws BackendError the backend is missing or cannot start; says why and what to install or choose instead
-/// \throws InputError   a mesh has no faces, or an option is out of range
+/// \throws BackendError the backend is missing or cannot start; says why and what to install or choose
+/// instead \throws InputError   a mesh has no faces, or an option is out of range
 std::unique_ptr<Scorer> make_scorer(Backend backend, const mesh::Mesh& a, const mesh::Mesh& b,
                                     const ViewOptions& options);
 
@@ -65,8 +65,8 @@ std::unique_ptr<Scorer> make_scorer(Backend backend, const mesh::Mesh& a, const 
 struct BackendInfo {
   Backend backend;
   bool available;
-  std::string renderer;   ///< empty if not available
-  std::string why_not;    ///< empty if available
+  std::string renderer;  ///< empty if not available
+  std::string why_not;   ///< empty if available
 };
 std::vector<BackendInfo> list_backends();
 

@@ -1,10 +1,17 @@
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <functional>
 #include <limits>
 #include <vector>
 
 #include "core/random.hpp"
+#include "shapes.hpp"
+#include "zbuffer/detail/fixed_triangle.hpp"
+#include "zbuffer/detail/raster_kernel.hpp"
 #include "zbuffer/detail/slope_sums.hpp"
 
 namespace rejoin::zbuffer::detail {
@@ -47,6 +54,63 @@ TEST(SlopeSums, ReadsNothingOutsideTheMaps) {
     const std::vector<float> b(static_cast<std::size_t>(width) * 3, 2.0F);
     EXPECT_EQ(slope_sums(a.data(), b.data(), width, 3).overlap, (width - 1) * 2);
   }
+}
+
+/// Calls body once for each instruction set that this processor has, with the dispatch bound to it.
+void with_each_instruction_set(const std::function<void()>& body) {
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    SCOPED_TRACE(hwy::TargetName(target));
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    body();
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+TEST(SlopeSums, EveryInstructionSetGivesTheSameBits) {
+  Random random(4);
+  const auto a = random_map(75, 60, 0.2, HUGE_VALF, random);
+  const auto b = random_map(75, 60, 0.2, HUGE_VALF, random);
+  const SlopeSums first = slope_sums(a.data(), b.data(), 75, 60);
+  int sets = 0;
+  with_each_instruction_set([&] {
+    const SlopeSums sums = slope_sums(a.data(), b.data(), 75, 60);
+    EXPECT_EQ(std::memcmp(&sums.sum, &first.sum, sizeof sums.sum), 0);
+    EXPECT_EQ(sums.overlap, first.overlap);
+    ++sets;
+  });
+  EXPECT_GT(sets, 0);
+}
+
+TEST(DrawSoup, EveryInstructionSetGivesTheSameBits) {
+  const TriangleSoup soup = soup_of(test::bumpy_sphere(4, 8));
+  const ViewOptions options{.resolution = 70, .view_side = 2.8};
+  const Projection projection = projection_a(test::random_poses(1, 9)[0], options);
+  const auto drawn = [&] {
+    std::vector<float> depth(70 * 70, HUGE_VALF);
+    draw_soup(soup, projection, {depth.data(), 70, 70});
+    return depth;
+  };
+  const std::vector<float> first = drawn();
+  EXPECT_GT(std::ranges::count_if(first, [](float d) { return std::isfinite(d); }), 1000);
+  with_each_instruction_set([&] {
+    EXPECT_EQ(instruction_set(), hwy::TargetName(hwy::SupportedTargets() & HWY_TARGETS));
+    const std::vector<float> again = drawn();
+    EXPECT_EQ(std::memcmp(again.data(), first.data(), first.size() * sizeof(float)), 0);
+  });
+}
+
+TEST(DrawSoup, FarOutsideTheReachOfTheGridTheViewIsStillRight) {
+  // A view of 1e-7 of the fragment: corners lie millions of pixels away and are not drawn, the near triangle
+  // is.
+  mesh::Mesh m = test::icosphere(1.0F, 2);
+  const auto first = static_cast<unsigned>(m.vertices.size());
+  m.vertices.insert(m.vertices.end(), {{-1e-6F, -1e-6F, 0}, {1e-6F, -1e-6F, 0}, {0, 1e-6F, 0}});
+  m.faces.emplace_back(first, first + 1, first + 2);
+  std::vector<float> depth(64 * 64, HUGE_VALF);
+  draw_soup(soup_of(m), projection_a({}, {.resolution = 64, .view_side = 2e-7}), {depth.data(), 64, 64});
+  for (const float d : depth) EXPECT_NEAR(d, 1e-7F, 1e-12F);
 }
 
 }  // namespace

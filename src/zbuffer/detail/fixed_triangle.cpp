@@ -53,15 +53,19 @@ std::optional<FixedTriangle> snap(const glm::vec3& a, const glm::vec3& b, const 
     t.y[k] = std::lrint(corners[k].y * static_cast<float>(kSubpixels));
     t.z[k] = corners[k].z;
   }
+  if (!orient(t)) return std::nullopt;
+  return t;
+}
+
+bool orient(FixedTriangle& t) {
   t.area2 = (t.x[1] - t.x[0]) * (t.y[2] - t.y[0]) - (t.x[2] - t.x[0]) * (t.y[1] - t.y[0]);
-  if (t.area2 == 0) return std::nullopt;
   if (t.area2 < 0) {
     std::swap(t.x[1], t.x[2]);
     std::swap(t.y[1], t.y[2]);
     std::swap(t.z[1], t.z[2]);
     t.area2 = -t.area2;
   }
-  return t;
+  return t.area2 != 0;
 }
 
 void fill(const FixedTriangle& t, const Canvas& canvas) {

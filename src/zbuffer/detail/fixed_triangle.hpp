@@ -53,6 +53,9 @@ constexpr std::int64_t centre_of(std::int64_t i) {
 /// of reach.
 std::optional<FixedTriangle> snap(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
 
+/// Makes a triangle whose x, y and z are set counter-clockwise and sets its area; false if it has none.
+bool orient(FixedTriangle& triangle);
+
 /// Draws one triangle, row by row, nearest depth wins.
 void fill(const FixedTriangle& triangle, const Canvas& canvas);
 

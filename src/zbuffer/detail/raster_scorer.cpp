@@ -1,39 +1,34 @@
 #include "zbuffer/detail/backends.hpp"
-#include "zbuffer/detail/fixed_triangle.hpp"
 #include "zbuffer/detail/map_scorer.hpp"
+#include "zbuffer/detail/raster_kernel.hpp"
 
 namespace rejoin::zbuffer::detail {
 namespace {
 
-/// Our own rasteriser.
+/// Our own rasteriser, made for triangles of a few pixels.
 class RasterScorer final : public MapScorer {
  public:
   RasterScorer(const mesh::Mesh& a, const mesh::Mesh& b, const ViewOptions& options)
-      : MapScorer(options), a_(a), b_(b) {}
+      : MapScorer(options), a_(soup_of(a)), b_(soup_of(b)) {}
 
   Backend backend() const override { return Backend::Raster; }
   std::string renderer() const override { return raster_renderer(); }
 
  protected:
   void render(Side side, const Projection& projection, std::span<float> depth) const override {
-    const mesh::Mesh& mesh = side == Side::A ? a_ : b_;
-    const Canvas canvas{depth.data(), options().resolution, options().resolution};
-    for (const glm::uvec3& face : mesh.faces) {
-      const auto triangle = snap(projection(mesh.vertices[face.x]), projection(mesh.vertices[face.y]),
-                                 projection(mesh.vertices[face.z]));
-      if (triangle) fill(*triangle, canvas);
-    }
+    draw_soup(side == Side::A ? a_ : b_, projection,
+              {depth.data(), options().resolution, options().resolution});
   }
 
  private:
-  mesh::Mesh a_;
-  mesh::Mesh b_;
+  TriangleSoup a_;
+  TriangleSoup b_;
 };
 
 }  // namespace
 
 std::string raster_renderer() {
-  return "raster";
+  return "raster " + instruction_set();
 }
 
 std::unique_ptr<Scorer> make_raster(const mesh::Mesh& a, const mesh::Mesh& b, const ViewOptions& options) {

@@ -1,0 +1,37 @@
+/// Many small triangles into a depth map.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "zbuffer/detail/canvas.hpp"
+#include "zbuffer/detail/view.hpp"
+
+namespace rejoin::zbuffer::detail {
+
+/// Triangles a block; a vector of any processor takes a whole fraction of it.
+inline constexpr std::size_t kSoupBlock = 16;
+
+/// A mesh's triangles without indices, corner by corner, so that vectors of triangles load without gathering.
+///
+/// A block of 16 triangles is 9 x 16 floats: x of all first corners, y, z, x of all second corners, ...  The
+/// last block is filled up with triangles of no area; faces with a corner that is not finite are left out.
+struct TriangleSoup {
+  std::vector<float> blocks;
+  glm::vec3 low{0.0F};  ///< box of all corners
+  glm::vec3 high{0.0F};
+
+  std::size_t block_count() const { return blocks.size() / (9 * kSoupBlock); }
+};
+
+TriangleSoup soup_of(const mesh::Mesh& mesh);
+
+/// Draws all triangles, nearest depth wins.  Covers exactly what draw() covers; depths differ by rounding
+/// only.  The same bits on every processor.
+void draw_soup(const TriangleSoup& soup, const Projection& projection, const Canvas& canvas);
+
+/// Name of the instructions that draw_soup uses here: "AVX3", "NEON", ...
+std::string instruction_set();
+
+}  // namespace rejoin::zbuffer::detail
