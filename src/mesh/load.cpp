@@ -24,7 +24,10 @@ struct Format {
 };
 
 constexpr std::array kFormats{
-    Format{".ply", "ply", detail::read_ply},
+    Format{".ply", "ply", detail::read_ply},  Format{".obj", "obj", detail::read_obj},
+    Format{".stl", "stl", detail::read_stl},  Format{".off", "off", detail::read_off},
+    Format{".glb", "glb", detail::read_gltf}, Format{".gltf", "gltf", detail::read_gltf},
+    Format{".drc", "drc", detail::read_drc},
 };
 
 const Format& format_of(const std::filesystem::path& path) {

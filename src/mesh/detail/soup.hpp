@@ -36,7 +36,14 @@ struct Source {
 /// \throws IoError the path cannot be read, is a folder, or is empty
 Source read_source(const std::filesystem::path& path);
 
+// Readers.  All throw IoError for a file that ends too early, InputError (with the place) for one that is not
+// what its name says.
 Soup read_ply(const Source& source);
+Soup read_obj(const Source& source);
+Soup read_stl(const Source& source);
+Soup read_off(const Source& source);
+Soup read_gltf(const Source& source);
+Soup read_drc(const Source& source);
 
 /// Checks, triangulates, welds and cleans (see load()).
 Loaded clean(const Soup& soup, const std::string& name);

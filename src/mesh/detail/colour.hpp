@@ -1,0 +1,30 @@
+/// sRGB bytes to linear light and back (IEC 61966-2-1): glTF stores vertex colours linear.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <glm/glm.hpp>
+
+namespace rejoin::mesh::detail {
+
+inline glm::dvec3 to_linear(const glm::u8vec3& srgb) {
+  glm::dvec3 linear;
+  for (int k = 0; k < 3; ++k) {
+    const double value = srgb[k] / 255.0;
+    linear[k] = value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+  }
+  return linear;
+}
+
+inline glm::u8vec3 to_srgb(const glm::dvec3& linear) {
+  glm::u8vec3 srgb;
+  for (int k = 0; k < 3; ++k) {
+    const double value = linear[k] > 0 ? std::min(linear[k], 1.0) : 0.0;
+    const double curved = value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
+    srgb[k] = static_cast<std::uint8_t>(std::lround(255.0 * curved));
+  }
+  return srgb;
+}
+
+}  // namespace rejoin::mesh::detail

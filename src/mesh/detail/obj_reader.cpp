@@ -1,0 +1,101 @@
+// A reader of its own: OpenMesh's skips lines that it does not understand, so that a damaged file would load
+// in part.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/detail/text.hpp"
+
+namespace rejoin::mesh::detail {
+namespace {
+
+class ObjReader {
+ public:
+  explicit ObjReader(const Source& source) : lines_(source) {}
+
+  Soup read() {
+    while (lines_.next_line()) {
+      const std::string_view keyword = lines_.next_word();
+      if (keyword == "v") {
+        read_vertex();
+      } else if (keyword == "vn") {
+        normals_.emplace_back(lines_.next_triple());
+      } else if (keyword == "f") {
+        read_face();
+      }
+    }
+    assign_normals();
+    if (coloured_ == soup_.points.size()) {
+      soup_.colours = std::move(colours_);
+    }
+    return std::move(soup_);
+  }
+
+ private:
+  /// "v x y z", then nothing, a weight, or the colour that many scanners append.
+  void read_vertex() {
+    soup_.points.push_back(lines_.next_triple());
+    glm::dvec3 extra(0.0);
+    int count = 0;
+    while (const std::optional<double> value = lines_.next_number()) {
+      if (count < 3) extra[count] = *value;
+      ++count;
+    }
+    if (count < 3) return;
+    ++coloured_;
+    colours_.emplace_back(glm::round(glm::clamp(extra, 0.0, 1.0) * 255.0));
+  }
+
+  /// Index of a corner's part: counted from 1, or back from the last one read if negative.
+  std::uint32_t index_of(std::string_view text, std::size_t count) const {
+    const std::optional<long long> value = to_integer(text);
+    if (!value) lines_.fail(fmt::format("\"{}\" is not a vertex index", text.substr(0, 20)));
+    const long long index = *value < 0 ? static_cast<long long>(count) + *value : *value - 1;
+    return index >= 0 && index < kNoPoint ? static_cast<std::uint32_t>(index) : kNoPoint;
+  }
+
+  /// "f v v v", "f v/t ...", "f v//n ..." or "f v/t/n ...".
+  void read_face() {
+    std::uint32_t size = 0;
+    for (std::string_view word = lines_.next_word(); !word.empty(); word = lines_.next_word()) {
+      const std::size_t slash = word.find('/');
+      const std::size_t second = slash == std::string_view::npos ? slash : word.find('/', slash + 1);
+      soup_.corners.push_back(index_of(word.substr(0, slash), soup_.points.size()));
+      const bool has_normal = second != std::string_view::npos && second + 1 < word.size();
+      corner_normals_.push_back(has_normal ? index_of(word.substr(second + 1), normals_.size()) : kNoPoint);
+      ++size;
+    }
+    if (size < 3) lines_.fail(fmt::format("a face of {} corners", size));
+    soup_.sizes.push_back(size);
+  }
+
+  /// One normal a vertex: the sum over its corners; of a cloud, the normal of the same number.
+  void assign_normals() {
+    if (soup_.sizes.empty()) {
+      if (normals_.size() == soup_.points.size()) soup_.normals = std::move(normals_);
+      return;
+    }
+    if (normals_.empty()) return;
+    soup_.normals.assign(soup_.points.size(), glm::vec3(0.0F));
+    for (std::size_t i = 0; i < soup_.corners.size(); ++i) {
+      if (soup_.corners[i] >= soup_.points.size() || corner_normals_[i] >= normals_.size()) continue;
+      soup_.normals[soup_.corners[i]] += normals_[corner_normals_[i]];
+    }
+  }
+
+  TextLines lines_;
+  Soup soup_;
+  std::vector<glm::vec3> normals_;
+  std::vector<glm::u8vec3> colours_;
+  std::vector<std::uint32_t> corner_normals_;
+  std::size_t coloured_ = 0;
+};
+
+}  // namespace
+
+Soup read_obj(const Source& source) {
+  return ObjReader(source).read();
+}
+
+}  // namespace rejoin::mesh::detail

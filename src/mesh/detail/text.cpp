@@ -1,0 +1,96 @@
+#include "mesh/detail/text.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "core/error.hpp"
+
+namespace rejoin::mesh::detail {
+namespace {
+
+constexpr std::string_view kBlank = " \t\r\f\v";
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(kBlank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+template <class T>
+std::optional<T> parse(std::string_view word) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  T value{};
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  // Out of range leaves 0: what is too small for a number is 0, what is too large is caught as a point far
+  // away.
+  const bool read = error == std::errc{} || error == std::errc::result_out_of_range;
+  if (word.empty() || !read || end != word.data() + word.size()) return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+std::optional<double> to_number(std::string_view word) {
+  return parse<double>(word);
+}
+
+std::optional<long long> to_integer(std::string_view word) {
+  return parse<long long>(word);
+}
+
+bool TextLines::next_line() {
+  joined_.clear();
+  while (!rest_.empty()) {
+    const std::size_t end = rest_.find('\n');
+    std::string_view line = rest_.substr(0, end);
+    rest_ = end == std::string_view::npos ? std::string_view{} : rest_.substr(end + 1);
+    ++number_;
+    line = trimmed(line.substr(0, line.find('#')));
+    if (line.ends_with('\\')) {
+      joined_.append(line.substr(0, line.size() - 1)).push_back(' ');
+      continue;
+    }
+    if (!joined_.empty()) line = joined_.append(line);
+    if (line.empty()) continue;
+    line_ = line;
+    return true;
+  }
+  return false;
+}
+
+std::string_view TextLines::next_word() {
+  const std::size_t first = line_.find_first_not_of(kBlank);
+  if (first == std::string_view::npos) {
+    line_ = {};
+    return {};
+  }
+  const std::size_t end = std::min(line_.find_first_of(kBlank, first), line_.size());
+  const std::string_view word = line_.substr(first, end - first);
+  line_ = line_.substr(end);
+  return word;
+}
+
+std::optional<double> TextLines::next_number() {
+  const std::string_view word = next_word();
+  if (word.empty()) return std::nullopt;
+  const std::optional<double> value = to_number(word);
+  if (!value) fail(fmt::format("\"{}\" is not a number", word.substr(0, 20)));
+  return value;
+}
+
+glm::dvec3 TextLines::next_triple() {
+  glm::dvec3 triple;
+  for (int k = 0; k < 3; ++k) {
+    const std::optional<double> value = next_number();
+    if (!value) fail(fmt::format("three numbers expected, {} found", k));
+    triple[k] = *value;
+  }
+  return triple;
+}
+
+void TextLines::fail(const std::string& problem) const {
+  throw InputError(source_.name, fmt::format("line {}: {}", number_, problem), "export the scan again");
+}
+
+}  // namespace rejoin::mesh::detail

@@ -1,0 +1,52 @@
+/// Lines and words of text formats, with the place for errors.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "mesh/detail/soup.hpp"
+
+namespace rejoin::mesh::detail {
+
+/// Walks over the lines of a text and over the words of each.
+class TextLines {
+ public:
+  explicit TextLines(const Source& source) : source_(source), rest_(source.bytes) {}
+
+  /// Goes to the next line that has a word before its "#" comment; false at the end.  A backslash at the end
+  /// of a line joins it with the next.
+  bool next_line();
+
+  /// Next word of this line; empty at its end.
+  std::string_view next_word();
+
+  /// Next word as a number; nullopt at the line's end.  \throws InputError the word is not a number
+  std::optional<double> next_number();
+
+  /// Next three words as numbers.  \throws InputError there are fewer
+  glm::dvec3 next_triple();
+
+  /// 1-based number of this line.
+  std::size_t number() const { return number_; }
+
+  /// \throws InputError with the file and this line
+  [[noreturn]] void fail(const std::string& problem) const;
+
+ private:
+  const Source& source_;
+  std::string_view rest_;  ///< after this line
+  std::string_view line_;  ///< what is left of this line
+  std::string joined_;     ///< storage of a line joined by backslashes
+  std::size_t number_ = 0;
+};
+
+/// A whole word as a floating-point number ("nan" and "inf" included).
+std::optional<double> to_number(std::string_view word);
+
+/// A whole word as an integer.
+std::optional<long long> to_integer(std::string_view word);
+
+/// An index that no point has: readers store it for negative ones, the common check names the face.
+constexpr std::uint32_t kNoPoint = 0xFFFFFFFFU;
+
+}  // namespace rejoin::mesh::detail
