@@ -64,8 +64,8 @@ bool fits_shared_memory(const Limits& limits, int resolution);
 /// software driver does before it gives up (which comes back as kUnfinished).
 bool suits_compute(const Limits& limits, const Surface& a, const Surface& b, int resolution);
 
-/// The fixed pipeline draws many poses into the tiles of one float target; a compute shader then reduces
-/// every pair of tiles.
+/// The fixed pipeline draws every map into a layer of one float target; a compute shader then compares all
+/// pairs of layers.
 std::unique_ptr<Drawing> make_pipeline_drawing(Engine& engine, const Surface& a, const Surface& b,
                                                int resolution);
 

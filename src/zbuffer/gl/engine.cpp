@@ -18,8 +18,8 @@ Limits read_limits(const Context& context) {
   limits.group_size = value;
   gl.GetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_SIZE, 0, &value);
   limits.group_size = std::min(limits.group_size, value);
-  gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &value);
-  limits.texture_side = value;
+  gl.GetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &value);
+  limits.texture_layers = value;
   GLint64 bytes = 0;
   gl.GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
   limits.storage_bytes = static_cast<std::size_t>(bytes);

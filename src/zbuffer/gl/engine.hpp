@@ -17,7 +17,7 @@ struct Limits {
   std::size_t shared_bytes = 0;   ///< of one work group
   std::size_t storage_bytes = 0;  ///< of one buffer that shaders write
   int group_size = 0;             ///< invocations of one work group, at most
-  int texture_side = 0;           ///< pixels
+  int texture_layers = 0;         ///< of one array texture
 };
 
 /// Making a context and compiling take longer than scoring thousands of poses, and a batch makes a scorer for

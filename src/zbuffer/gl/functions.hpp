@@ -17,7 +17,6 @@ namespace rejoin::zbuffer::gl {
   X(BindTexture, PFNGLBINDTEXTUREPROC)                         \
   X(BindVertexArray, PFNGLBINDVERTEXARRAYPROC)                 \
   X(BlendEquation, PFNGLBLENDEQUATIONPROC)                     \
-  X(BlendFunc, PFNGLBLENDFUNCPROC)                             \
   X(BufferData, PFNGLBUFFERDATAPROC)                           \
   X(BufferSubData, PFNGLBUFFERSUBDATAPROC)                     \
   X(CheckFramebufferStatus, PFNGLCHECKFRAMEBUFFERSTATUSPROC)   \
@@ -34,11 +33,10 @@ namespace rejoin::zbuffer::gl {
   X(DeleteVertexArrays, PFNGLDELETEVERTEXARRAYSPROC)           \
   X(Disable, PFNGLDISABLEPROC)                                 \
   X(DispatchCompute, PFNGLDISPATCHCOMPUTEPROC)                 \
-  X(DrawElementsInstanced, PFNGLDRAWELEMENTSINSTANCEDPROC)     \
+  X(DrawElements, PFNGLDRAWELEMENTSPROC)                       \
   X(Enable, PFNGLENABLEPROC)                                   \
   X(EnableVertexAttribArray, PFNGLENABLEVERTEXATTRIBARRAYPROC) \
-  X(Finish, PFNGLFINISHPROC)                                   \
-  X(FramebufferTexture2D, PFNGLFRAMEBUFFERTEXTURE2DPROC)       \
+  X(FramebufferTextureLayer, PFNGLFRAMEBUFFERTEXTURELAYERPROC) \
   X(GenBuffers, PFNGLGENBUFFERSPROC)                           \
   X(GenFramebuffers, PFNGLGENFRAMEBUFFERSPROC)                 \
   X(GenTextures, PFNGLGENTEXTURESPROC)                         \
@@ -60,11 +58,12 @@ namespace rejoin::zbuffer::gl {
   X(ReadPixels, PFNGLREADPIXELSPROC)                           \
   X(ShaderSource, PFNGLSHADERSOURCEPROC)                       \
   X(TexParameteri, PFNGLTEXPARAMETERIPROC)                     \
-  X(TexStorage2D, PFNGLTEXSTORAGE2DPROC)                       \
-  X(Uniform2ui, PFNGLUNIFORM2UIPROC)                           \
+  X(TexStorage3D, PFNGLTEXSTORAGE3DPROC)                       \
+  X(Uniform1f, PFNGLUNIFORM1FPROC)                             \
   X(Uniform1ui, PFNGLUNIFORM1UIPROC)                           \
+  X(Uniform2ui, PFNGLUNIFORM2UIPROC)                           \
+  X(Uniform4fv, PFNGLUNIFORM4FVPROC)                           \
   X(UseProgram, PFNGLUSEPROGRAMPROC)                           \
-  X(VertexAttribDivisor, PFNGLVERTEXATTRIBDIVISORPROC)         \
   X(VertexAttribPointer, PFNGLVERTEXATTRIBPOINTERPROC)         \
   X(Viewport, PFNGLVIEWPORTPROC)
 

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -10,61 +9,53 @@
 namespace rejoin::zbuffer::gl {
 namespace {
 
-constexpr GLuint kRecords = 2;     // binding in shaders/tile_compare.comp
-constexpr int kTargetSide = 2048;  // pixels: 128 poses of 128 x 128, and 16 MB
+constexpr GLuint kRecords = 2;                                // binding in shaders/map_compare.comp
+constexpr std::size_t kTargetBytes = std::size_t{32} << 20U;  // 256 poses of 128 x 128
 
 /// A mesh as the fixed pipeline wants it.
 struct Drawable {
   Buffer vertices;
   Buffer faces;
   GLsizei indices = 0;
-  Buffer placements;  ///< one a pose
   VertexArray layout;
 };
 
-Drawable make_drawable(const Functions& gl, const Surface& mesh, std::size_t most_poses) {
+Drawable make_drawable(const Functions& gl, const Surface& surface) {
   Drawable made;
   made.layout = make_vertex_array(gl);
   gl.BindVertexArray(made.layout.name());
-  made.vertices = make_buffer(gl, GL_ARRAY_BUFFER, std::span<const glm::vec3>(mesh.vertices));
+  made.vertices = make_buffer(gl, GL_ARRAY_BUFFER, std::span<const glm::vec3>(surface.vertices));
   gl.EnableVertexAttribArray(0);
   gl.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3), nullptr);
-  made.placements = make_buffer(gl, GL_ARRAY_BUFFER, most_poses * sizeof(Placement), nullptr, GL_STREAM_DRAW);
-  for (GLuint row = 0; row < 3; ++row) {
-    gl.EnableVertexAttribArray(1 + row);
-    gl.VertexAttribPointer(1 + row, 4, GL_FLOAT, GL_FALSE, sizeof(Placement),
-                           reinterpret_cast<const void*>(row * sizeof(glm::vec4)));
-    gl.VertexAttribDivisor(1 + row, 1);
-  }
-  made.faces = make_buffer(gl, GL_ELEMENT_ARRAY_BUFFER, std::span<const glm::uvec3>(mesh.faces));
-  made.indices = static_cast<GLsizei>(mesh.faces.size() * 3);
+  made.faces = make_buffer(gl, GL_ELEMENT_ARRAY_BUFFER, std::span<const glm::uvec3>(surface.faces));
+  made.indices = static_cast<GLsizei>(surface.faces.size() * 3);
   gl.BindVertexArray(0);
   return made;
 }
 
+/// Every map has a layer of its own, so where in a batch a pose stands cannot show in its depths.
 class PipelineDrawing : public Drawing {
  public:
   PipelineDrawing(Engine& engine, const Surface& a, const Surface& b, int resolution)
       : engine_(engine), resolution_(resolution) {
-    const int most = engine.limits().texture_side / resolution;
-    tiles_a_row_ = std::clamp(kTargetSide / resolution, 2, std::max(most, 2));
-    side_ = tiles_a_row_ * resolution;
-    poses_a_draw_ = static_cast<std::size_t>(tiles_a_row_) * tiles_a_row_ / 2;
+    const std::size_t pair_bytes = 8 * static_cast<std::size_t>(resolution) * resolution;
+    const std::size_t most = std::max(engine.limits().texture_layers / 2, 1);
+    poses_a_batch_ = std::clamp<std::size_t>(kTargetBytes / pair_bytes, 1, most);
     const Functions& gl = engine.gl();
-    a_ = make_drawable(gl, a, poses_a_draw_);
-    b_ = make_drawable(gl, b, poses_a_draw_);
+    a_ = make_drawable(gl, a);
+    b_ = make_drawable(gl, b);
     records_ =
-        make_buffer(gl, GL_SHADER_STORAGE_BUFFER, poses_a_draw_ * sizeof(Record), nullptr, GL_STREAM_READ);
+        make_buffer(gl, GL_SHADER_STORAGE_BUFFER, poses_a_batch_ * sizeof(Record), nullptr, GL_STREAM_READ);
     make_target();
     engine.context().check("making the depth target");
   }
 
   void score(std::span<const PairPlacement> poses, std::span<Record> records) override {
     const Functions& gl = engine_.gl();
-    for (std::size_t first = 0; first < poses.size(); first += poses_a_draw_) {
-      const std::size_t count = std::min(poses_a_draw_, poses.size() - first);
+    for (std::size_t first = 0; first < poses.size(); first += poses_a_batch_) {
+      const std::size_t count = std::min(poses_a_batch_, poses.size() - first);
       draw(poses.subspan(first, count));
-      reduce(count);
+      compare(count);
       gl.BindBuffer(GL_SHADER_STORAGE_BUFFER, records_.name());
       gl.GetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(count * sizeof(Record)),
                           records.data() + first);
@@ -75,7 +66,7 @@ class PipelineDrawing : public Drawing {
   std::optional<std::pair<std::vector<float>, std::vector<float>>> depths(
       const PairPlacement& pose) override {
     draw(std::span(&pose, 1));
-    std::pair<std::vector<float>, std::vector<float>> read{read_tile(0), read_tile(1)};
+    std::pair<std::vector<float>, std::vector<float>> read{read_layer(0), read_layer(1)};
     engine_.context().check("reading the depth maps");
     return read;
   }
@@ -84,80 +75,75 @@ class PipelineDrawing : public Drawing {
   void make_target() {
     const Functions& gl = engine_.gl();
     target_ = make_texture(gl);
-    gl.BindTexture(GL_TEXTURE_2D, target_.name());
-    gl.TexStorage2D(GL_TEXTURE_2D, 1, GL_R32F, side_, side_);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl.BindTexture(GL_TEXTURE_2D_ARRAY, target_.name());
+    gl.TexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_R32F, resolution_, resolution_,
+                    static_cast<GLsizei>(2 * poses_a_batch_));
+    gl.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl.TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     framebuffer_ = make_framebuffer(gl);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
-    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target_.name(), 0);
+    attach(0);
     if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
       throw BackendError(engine_.context().subject(), "the driver cannot draw into a 32 bit float target",
                          "choose --backend raster");
     }
   }
 
-  /// A's tiles, then B's.
+  void attach(std::size_t layer) {
+    const Functions& gl = engine_.gl();
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+    gl.FramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, target_.name(), 0,
+                               static_cast<GLint>(layer));
+  }
+
   void draw(std::span<const PairPlacement> poses) {
     const Functions& gl = engine_.gl();
     const GLuint program = engine_.program(
         {{GL_VERTEX_SHADER, {"depth_draw.vert"}}, {GL_FRAGMENT_SHADER, {"depth_draw.frag"}}}, {});
-    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
-    gl.Viewport(0, 0, side_, side_);
-    constexpr std::array<float, 4> kFar{std::numeric_limits<float>::infinity(), 0, 0, 0};
-    gl.ClearBufferfv(GL_COLOR, 0, kFar.data());
+    gl.UseProgram(program);
+    gl.Uniform1f(gl.GetUniformLocation(program, "resolution"), static_cast<float>(resolution_));
+    const GLint rows = gl.GetUniformLocation(program, "rows");
+    gl.Viewport(0, 0, resolution_, resolution_);
     gl.Enable(GL_BLEND);
     gl.BlendEquation(GL_MIN);
-    gl.UseProgram(program);
-    set_tiling(program);
-    std::vector<Placement> placements(poses.size());
-    std::transform(poses.begin(), poses.end(), placements.begin(),
-                   [](const PairPlacement& p) { return p.a; });
-    draw_fragment(a_, placements, program, 0);
-    std::transform(poses.begin(), poses.end(), placements.begin(),
-                   [](const PairPlacement& p) { return p.b; });
-    draw_fragment(b_, placements, program, poses.size());
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+      draw_map(a_, poses[k].a, rows, 2 * k);
+      draw_map(b_, poses[k].b, rows, 2 * k + 1);
+    }
     gl.Disable(GL_BLEND);
     gl.BindVertexArray(0);
   }
 
-  void draw_fragment(const Drawable& fragment, const std::vector<Placement>& placements, GLuint program,
-                     std::size_t first_tile) {
+  void draw_map(const Drawable& fragment, const Placement& placement, GLint rows, std::size_t layer) {
     const Functions& gl = engine_.gl();
-    gl.BindBuffer(GL_ARRAY_BUFFER, fragment.placements.name());
-    gl.BufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(placements.size() * sizeof(Placement)),
-                     placements.data());
-    gl.Uniform1ui(gl.GetUniformLocation(program, "first_tile"), static_cast<GLuint>(first_tile));
+    constexpr std::array<float, 4> kFar{std::numeric_limits<float>::infinity(), 0, 0, 0};
+    attach(layer);
+    gl.ClearBufferfv(GL_COLOR, 0, kFar.data());
+    gl.Uniform4fv(rows, 3, &placement.x.x);
     gl.BindVertexArray(fragment.layout.name());
-    gl.DrawElementsInstanced(GL_TRIANGLES, fragment.indices, GL_UNSIGNED_INT, nullptr,
-                             static_cast<GLsizei>(placements.size()));
+    gl.DrawElements(GL_TRIANGLES, fragment.indices, GL_UNSIGNED_INT, nullptr);
   }
 
-  void reduce(std::size_t count) {
+  void compare(std::size_t count) {
     const Functions& gl = engine_.gl();
-    const int group = resolution_ > 512 ? engine_.limits().group_size : engine_.limits().software ? 64 : 256;
-    const GLuint program = engine_.program({{GL_COMPUTE_SHADER, {"compare.glsl", "tile_compare.comp"}}},
+    // Software: small groups switch less; yet no invocation may come near 65,535 loop rounds (see
+    // score.comp).
+    const int small = engine_.limits().software ? 64 : 256;
+    const int group = resolution_ > 512 ? engine_.limits().group_size : small;
+    const GLuint program = engine_.program({{GL_COMPUTE_SHADER, {"compare.glsl", "map_compare.comp"}}},
                                            "#define LOCAL_SIZE " + std::to_string(group) + "\n");
     gl.UseProgram(program);
-    set_tiling(program);
-    gl.BindTexture(GL_TEXTURE_2D, target_.name());
+    gl.Uniform1ui(gl.GetUniformLocation(program, "resolution"), static_cast<GLuint>(resolution_));
+    gl.BindTexture(GL_TEXTURE_2D_ARRAY, target_.name());
     gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, kRecords, records_.name());
     gl.DispatchCompute(static_cast<GLuint>(count), 1, 1);
     gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   }
 
-  void set_tiling(GLuint program) {
-    const Functions& gl = engine_.gl();
-    gl.Uniform2ui(gl.GetUniformLocation(program, "tiling"), static_cast<GLuint>(tiles_a_row_),
-                  static_cast<GLuint>(side_));
-    gl.Uniform1ui(gl.GetUniformLocation(program, "resolution"), static_cast<GLuint>(resolution_));
-  }
-
-  std::vector<float> read_tile(int tile) {
+  std::vector<float> read_layer(std::size_t layer) {
     std::vector<float> depths(static_cast<std::size_t>(resolution_) * resolution_);
+    attach(layer);
     engine_.gl().PixelStorei(GL_PACK_ALIGNMENT, 1);
-    engine_.gl().ReadPixels(tile % tiles_a_row_ * resolution_, tile / tiles_a_row_ * resolution_, resolution_,
-                            resolution_, GL_RED, GL_FLOAT, depths.data());
+    engine_.gl().ReadPixels(0, 0, resolution_, resolution_, GL_RED, GL_FLOAT, depths.data());
     std::replace_if(
         depths.begin(), depths.end(), [](float depth) { return std::isinf(depth); }, kBackground);
     return depths;
@@ -165,15 +151,15 @@ class PipelineDrawing : public Drawing {
 
   Engine& engine_;
   int resolution_;
-  int tiles_a_row_ = 2;
-  int side_ = 0;
-  std::size_t poses_a_draw_ = 1;
+  std::size_t poses_a_batch_ = 1;
   Drawable a_;
   Drawable b_;
   Buffer records_;
   Texture target_;
   Framebuffer framebuffer_;
 };
+
+static_assert(sizeof(Placement) == 12 * sizeof(float));  // uploaded as three rows
 
 }  // namespace
 
