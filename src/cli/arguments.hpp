@@ -15,7 +15,7 @@ namespace rejoin::cli {
 template <typename Value>
 using Choices = std::vector<std::pair<std::string, Value>>;
 
-/// Adds an option that takes one of a few words; help shows them as "one|two|three".
+/// Adds an option that takes one of a few words; help shows them as "one|two|three: description".
 template <typename Value>
 CLI::Option* add_choice(CLI::App& app, const std::string& name, Value& value, const Choices<Value>& choices,
                         const std::string& description) {
@@ -29,7 +29,7 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, Value& value, co
     }
     throw CLI::ValidationError("'" + text + "' is none of " + words);
   };
-  return app.add_option_function<std::string>(name, parse, description)->type_name(words);
+  return app.add_option_function<std::string>(name, parse, words + ": " + description)->type_name("WORD");
 }
 
 /// The backends that a user may choose.

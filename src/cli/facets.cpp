@@ -96,9 +96,7 @@ std::string to_json(const match::Fragment& fragment) {
 class FacetsCommand final : public Command {
  public:
   void define(CLI::App& app) override {
-    app.add_option("A", path_, "scan of a fragment (ply, obj, stl, off, gltf, glb, drc)")
-        ->required()
-        ->group("Input");
+    app.add_option("A", path_, "scan: ply, obj, stl, off, gltf, glb or drc")->required()->group("Input");
     app.add_option("--ply", ply_, "write the surface with a colour for each facet")
         ->type_name("FILE")
         ->group("Output");

@@ -38,11 +38,11 @@ void add_line(std::vector<HelpGroup>& groups, const std::string& heading, HelpLi
 }
 
 std::string layout(const std::string& left, const std::string& description) {
-  return fmt::format("  {:<31} {}\n", left, description);
+  return fmt::format("  {:<23} {}\n", left, description);
 }
 
 std::string layout(const HelpGroup& group) {
-  std::string text = group.heading + ":\n";
+  std::string text = "\n" + group.heading + ":\n";
   for (const HelpLine& line : group.lines) {
     text += layout(line.argument.empty() ? line.names : line.names + " " + line.argument, line.description);
   }
@@ -86,10 +86,9 @@ std::string HelpFormatter::make_help(const CLI::App* app, std::string /*name*/,
   const std::vector<const CLI::App*> commands = visible_subcommands(*app);
   if (!commands.empty()) text += "\nCommands:\n";
   for (const CLI::App* command : commands) text += layout(command->get_name(), command->get_description());
-  if (!commands.empty()) text += "\n";
   for (const HelpGroup& group : help_groups(*app)) text += layout(group);
   const std::string footer = app->get_footer();
-  return footer.empty() ? text : text + footer + "\n";
+  return footer.empty() ? text : text + "\n" + footer + "\n";
 }
 
 }  // namespace rejoin::cli

@@ -3,6 +3,7 @@
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
 #include <exception>
 #include <new>
 #include <string>
@@ -42,8 +43,8 @@ Entry add_command(CLI::App& root, const char* name, const char* description,
 std::vector<Entry> add_commands(CLI::App& root) {
   std::vector<Entry> entries;
   entries.push_back(add_command(root, "match", "Find the pose at which B joins A.", make_match_command()));
-  entries.push_back(add_command(root, "compare", "Rasterised against ray-cast error of A and B at a pose.",
-                                make_compare_command()));
+  entries.push_back(
+      add_command(root, "compare", "Check the error of a pose by ray casting.", make_compare_command()));
   entries.push_back(
       add_command(root, "facets", "Show the surfaces along which A may join.", make_facets_command()));
   entries.push_back(add_command(root, "info", "Version, backends, threads.", make_info_command()));
@@ -56,7 +57,7 @@ std::vector<Entry> add_commands(CLI::App& root) {
 
 void add_common(CLI::App& root, Common& common) {
   root.formatter(std::make_shared<HelpFormatter>());
-  root.require_subcommand(1);
+  root.require_subcommand(0, 1);
   root.set_help_flag("-h,--help", "show this, or a command's own help")->group("Everywhere");
   root.set_version_flag("--version", std::string("rejoin ") + kVersion, "show the version")
       ->group("Everywhere");
@@ -64,8 +65,7 @@ void add_common(CLI::App& root, Common& common) {
       ->type_name("N")
       ->check(CLI::Range(0, 1024).description(""))
       ->group("Everywhere");
-  root.add_flag("--quiet", common.quiet, "no summary and no progress, only warnings and errors")
-      ->group("Everywhere");
+  root.add_flag("--quiet", common.quiet, "only warnings and errors, no results")->group("Everywhere");
   root.add_flag("--verbose", common.verbose, "tell on stderr what takes how long")->group("Everywhere");
 }
 
@@ -79,7 +79,7 @@ int run(const std::vector<Entry>& entries, const Common& common) {
   for (const Entry& entry : entries) {
     if (entry.app->parsed()) return entry.command->run(console, context);
   }
-  return kWrongUse;
+  throw UsageError("command line", "no command is given", "see rejoin --help");
 }
 
 /// CLI11's messages as one line with the way out.

@@ -51,9 +51,7 @@ std::string summary(const match::Result& result) {
 class MatchCommand final : public Command {
  public:
   void define(CLI::App& app) override {
-    app.add_option("A", path_a_, "scan of a fragment (ply, obj, stl, off, gltf, glb, drc)")
-        ->required()
-        ->group("Input");
+    app.add_option("A", path_a_, "scan: ply, obj, stl, off, gltf, glb or drc")->required()->group("Input");
     app.add_option("B", path_b_, "scan of the fragment that is moved")->required()->group("Input");
     app.add_option("--json", json_, "write pose, score and errors")->type_name("FILE")->group("Output");
     app.add_option("--out", out_, "write the joined model and pictures")->type_name("DIR")->group("Output");

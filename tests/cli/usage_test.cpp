@@ -72,7 +72,7 @@ TEST_P(HelpTest, FitsAScreen) {
   std::istringstream lines(finished.out);
   int count = 0;
   for (std::string line; std::getline(lines, line); ++count) EXPECT_LE(line.size(), 80U) << line;
-  EXPECT_LE(count, command == "match" ? 28 : 23);
+  EXPECT_LE(count, 24);
 }
 
 INSTANTIATE_TEST_SUITE_P(Commands, HelpTest,
