@@ -107,6 +107,20 @@ TEST(RasterScorer, CoversExactlyWhatTheReferenceCovers) {
   }
 }
 
+TEST(Scorers, APoseThatIsNotFiniteShowsNothing) {
+  const mesh::Mesh sphere = test::icosphere(1, 2);
+  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    for (const Backend backend : {Backend::Raster, Backend::RayCast, Backend::Reference}) {
+      const ViewPair pose{.rotation_a = glm::mat3(bad), .shift_a = {bad, 0.0F}};
+      PairScore score;
+      make_scorer(backend, sphere, sphere, {.resolution = 32})->score({&pose, 1}, {&score, 1});
+      EXPECT_EQ(score.covered_a, 0) << name_of(backend);
+      EXPECT_EQ(score.overlap, 0) << name_of(backend);
+      EXPECT_GT(score.covered_b, 100) << name_of(backend);
+    }
+  }
+}
+
 TEST(RasterScorer, KeptMapsGiveTheSameScoresAsFreshOnes) {
   const mesh::Mesh a = test::bumpy_sphere(3, 1);
   const mesh::Mesh b = test::bumpy_sphere(3, 2);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "zbuffer/detail/drawable.hpp"
 #include "zbuffer/detail/fixed_triangle.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -24,7 +25,7 @@ using IntM = hn::Mask<Ints>;
 
 /// A triangle whose covered box is at most this many pixels wide and high is drawn together with others, one
 /// lane each; the others are drawn alone.
-constexpr int kSmall = 8;
+constexpr int kSmall = 24;
 /// Longest side of the box of a triangle, in grid steps, for which edge functions fit into 32 bits.
 constexpr int kNarrow = 1 << 15;
 static_assert(kSmall * kSubpixels < kNarrow);
@@ -203,8 +204,11 @@ HWY_INLINE void draw_vector(const float* at, const Projection& projection, const
   const auto small = hn::And(hn::And(fits, visible), hn::Ne(area2, hn::Zero(d)));
   const std::size_t count = collect(c, area2, box, small, canvas.width, fragments);
   for (std::size_t k = 0; k < count; ++k) {
+    // By value, so that the compiler takes a minimum instead of a branch that nothing can predict.
     float& pixel = canvas.depth[fragments.index[k]];
-    pixel = std::min(pixel, fragments.depth[k]);
+    const float before = pixel;
+    const float depth = fragments.depth[k];
+    pixel = depth < before ? depth : before;
   }
 }
 
@@ -234,13 +238,12 @@ HWY_EXPORT(draw_blocks);
 HWY_EXPORT(target_name);
 
 bool within_reach(const TriangleSoup& soup, const Projection& projection) {
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::vec3 p = projection({(corner & 1) != 0 ? soup.high.x : soup.low.x,
-                                    (corner & 2) != 0 ? soup.high.y : soup.low.y,
-                                    (corner & 4) != 0 ? soup.high.z : soup.low.z});
-    if (!(std::abs(p.x) < kReach / 2 && std::abs(p.y) < kReach / 2 && std::isfinite(p.z))) return false;
-  }
-  return true;
+  const mesh::Box box = projected(soup.box, projection);
+  // Half the reach leaves room for the rounding of points inside the box.  A pose that is not finite is out
+  // of reach.
+  constexpr float kFar = kReach / 2;
+  return box.low.x > -kFar && box.low.y > -kFar && box.high.x < kFar && box.high.y < kFar &&
+         std::isfinite(box.low.z) && std::isfinite(box.high.z);
 }
 
 void draw_one_by_one(const TriangleSoup& soup, const Projection& projection, const Canvas& canvas) {

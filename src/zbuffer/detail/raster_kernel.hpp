@@ -19,8 +19,7 @@ inline constexpr std::size_t kSoupBlock = 16;
 /// last block is filled up with triangles of no area; faces with a corner that is not finite are left out.
 struct TriangleSoup {
   std::vector<float> blocks;
-  glm::vec3 low{0.0F};  ///< box of all corners
-  glm::vec3 high{0.0F};
+  mesh::Box box;  ///< of all corners
 
   std::size_t block_count() const { return blocks.size() / (9 * kSoupBlock); }
 };

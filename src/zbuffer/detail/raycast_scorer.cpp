@@ -4,11 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <utility>
+#include <limits>
 
 #include "core/error.hpp"
 #include "zbuffer/detail/backends.hpp"
 #include "zbuffer/detail/canvas.hpp"
+#include "zbuffer/detail/drawable.hpp"
 #include "zbuffer/detail/map_scorer.hpp"
 
 namespace rejoin::zbuffer::detail {
@@ -36,60 +37,30 @@ Device open_device() {
   return device;
 }
 
-bool is_finite(const glm::vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-/// A fragment as Embree holds it, and the box that tells which pixels need rays.
+/// A fragment as Embree holds it.
 class RayTarget {
  public:
   RayTarget(const Device& device, const mesh::Mesh& mesh) : scene_(rtcNewScene(device.get())) {
-    rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);  // no ray slips through between two triangles
-    rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_HIGH);
-    attach(device, mesh);
-    rtcCommitScene(scene_.get());
-    for (const glm::vec3& v : mesh.vertices) {
-      if (!is_finite(v)) continue;
-      low_ = glm::min(low_, v);
-      high_ = glm::max(high_, v);
-    }
-    if (rtcGetDeviceError(device.get()) != RTC_ERROR_NONE) {
-      throw BackendError("raycast", "Embree cannot build the scene", "choose raster");
-    }
-  }
-
-  RTCScene scene() const { return scene_.get(); }
-
-  /// Lowest and highest projected coordinates of the box's corners.
-  std::pair<glm::vec3, glm::vec3> extent(const Projection& projection) const {
-    glm::vec3 low(std::numeric_limits<float>::infinity());
-    glm::vec3 high = -low;
-    for (int corner = 0; corner < 8; ++corner) {
-      const glm::vec3 p =
-          projection({(corner & 1) != 0 ? high_.x : low_.x, (corner & 2) != 0 ? high_.y : low_.y,
-                      (corner & 4) != 0 ? high_.z : low_.z});
-      low = glm::min(low, p);
-      high = glm::max(high, p);
-    }
-    return {low, high};
-  }
-
- private:
-  void attach(const Device& device, const mesh::Mesh& mesh) {
-    std::vector<glm::uvec3> faces;
-    for (const glm::uvec3& f : mesh.faces) {
-      if (is_finite(mesh.vertices[f.x]) && is_finite(mesh.vertices[f.y]) && is_finite(mesh.vertices[f.z])) {
-        faces.push_back(f);
-      }
-    }
+    const std::vector<glm::uvec3> faces = finite_faces(mesh);
+    box_ = box_of(mesh, faces);
     RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
     copy_into(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.vertices);
     copy_into(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, faces);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene_.get(), geometry);
     rtcReleaseGeometry(geometry);
+    rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);  // no ray slips through between two triangles
+    rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_HIGH);
+    rtcCommitScene(scene_.get());
+    if (rtcGetDeviceError(device.get()) != RTC_ERROR_NONE) {
+      throw BackendError("raycast", "Embree cannot build the scene", "choose raster");
+    }
   }
 
+  RTCScene scene() const { return scene_.get(); }
+  const mesh::Box& box() const { return box_; }
+
+ private:
   template <class Item>
   static void copy_into(RTCGeometry geometry, RTCBufferType type, RTCFormat format,
                         const std::vector<Item>& items) {
@@ -98,8 +69,7 @@ class RayTarget {
   }
 
   Scene scene_;
-  glm::vec3 low_{std::numeric_limits<float>::infinity()};
-  glm::vec3 high_{-std::numeric_limits<float>::infinity()};
+  mesh::Box box_;
 };
 
 /// Rays of one projection, expressed in the fragment's own frame so that its scene is built once only.
@@ -177,7 +147,7 @@ class RayCastScorer final : public MapScorer {
  protected:
   void render(Side side, const Projection& projection, std::span<float> depth) const override {
     const RayTarget& target = side == Side::A ? a_ : b_;
-    const auto [low, high] = target.extent(projection);
+    const auto [low, high] = projected(target.box(), projection);
     const int last = options().resolution - 1;
     const auto pixel = [&](float x) {
       return static_cast<int>(std::clamp(std::floor(x), 0.0F, static_cast<float>(last)));

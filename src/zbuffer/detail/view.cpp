@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "zbuffer/detail/drawable.hpp"
 
 namespace rejoin::zbuffer::detail {
 namespace {
@@ -17,10 +18,6 @@ void require_faces(const mesh::Mesh& mesh, const std::string& name) {
   if (mesh.faces.empty()) {
     throw InputError(name, "has no faces, so it cannot be drawn", "make a surface of the cloud first");
   }
-}
-
-bool is_finite(const glm::vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
 Projection projection(const glm::mat3& rotation, const glm::vec2& shift, const glm::vec3& centre,
