@@ -122,8 +122,7 @@ TEST_F(MatchCommand, FacetThatIsNotThereIsWrongUse) {
 
 // A library that is not there stands for a machine without EGL.
 TEST_F(MatchCommand, MissingBackendIsOneLineAndExitsWithOne) {
-  const Finished finished =
-      run({"match", a, b, "--backend", "gpu"}, {"REJOIN_EGL_LIBRARY=/nonexistent.so"});
+  const Finished finished = run({"match", a, b, "--backend", "gpu"}, {"REJOIN_EGL_LIBRARY=/nonexistent.so"});
   EXPECT_EQ(finished.exit_code, 1);
   EXPECT_EQ(finished.out, "");
   EXPECT_TRUE(is_one_line(finished.err)) << finished.err;
