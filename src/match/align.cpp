@@ -16,20 +16,22 @@ constexpr float kFacing = -0.5F;     // facing normals differ from opposite by a
 constexpr double kWallNear = 1.2;    // wall thicknesses from the seam in which walls are compared
 constexpr double kWallClear = 0.25;  // wall thicknesses next to the seam that are left out: worn edges lie
 constexpr float kWallAlike = 0.7F;   // wall normals across a seam differ by at most 45 degrees
-constexpr double kWallWeight = 0.3;
+constexpr double kWallWeight = 0.1;
 
 /// Samples of one class of one fragment.
 struct Cloud {
   std::vector<glm::vec3> points;
   std::vector<glm::vec3> normals;
-  std::vector<glm::vec3> relief;  ///< normal less the smoothed course of the surface around it
+  std::vector<bool> edge;  ///< next to another facet: worn, of no use for the relief
 };
 
 struct Side {
   Cloud broken;
   Cloud walls;  ///< thin pieces: original surface near the fracture
+  Cloud body;   ///< every sample
   std::unique_ptr<mesh::PointIndex> broken_index;
   std::unique_ptr<mesh::PointIndex> wall_index;
+  std::unique_ptr<mesh::PointIndex> body_index;
   double sample_area = 0;
 };
 
@@ -37,27 +39,25 @@ glm::vec3 apply(const glm::mat3& r, const glm::vec3& t, const glm::vec3& p) {
   return r * p + t;
 }
 
-Side side_of(const Fragment& fragment, double course_radius) {
+Side side_of(const Fragment& fragment, double edge_radius) {
   const auto& s = fragment.facets;
   Side side;
   side.sample_area = s.sample_area;
-  const bool thin = s.wall_thickness > 0;
+  side.body.points = s.samples.points;
+  side.body.normals = s.normals;
+  side.body_index = std::make_unique<mesh::PointIndex>(side.body.points);
+  std::vector<std::uint32_t> near;
   for (std::size_t i = 0; i < s.samples.size(); ++i) {
     if (s.surface[i] != mesh::Surface::Fracture) continue;
     side.broken.points.push_back(s.samples.points[i]);
     side.broken.normals.push_back(s.normals[i]);
+    side.body_index->within(s.samples.points[i], static_cast<float>(edge_radius), near);
+    side.broken.edge.push_back(std::any_of(near.begin(), near.end(), [&](std::uint32_t k) {
+      return s.facet_of_sample[k] != s.facet_of_sample[i];
+    }));
   }
   side.broken_index = std::make_unique<mesh::PointIndex>(side.broken.points);
-  std::vector<std::uint32_t> near;
-  for (std::size_t i = 0; i < side.broken.points.size(); ++i) {
-    side.broken_index->within(side.broken.points[i], static_cast<float>(course_radius), near);
-    glm::vec3 sum(0.0F);
-    for (const auto k : near) {
-      if (glm::dot(side.broken.normals[k], side.broken.normals[i]) > 0.0F) sum += side.broken.normals[k];
-    }
-    side.broken.relief.push_back(side.broken.normals[i] - glm::normalize(sum));
-  }
-  if (thin) {
+  if (s.wall_thickness > 0) {
     for (std::size_t i = 0; i < s.samples.size(); ++i) {
       if (s.surface[i] != mesh::Surface::Original) continue;
       const auto seam = side.broken_index->nearest(s.samples.points[i]);
@@ -118,7 +118,8 @@ struct Joint::Impl {
   double thickness = 0;
   double spacing = 0;
   double tolerance = 0;
-  glm::dvec3 low_b{0.0};
+  double noise = 0;  ///< of the scans, mesh units
+  double patch = 0;  ///< side of a patch of surface whose relief is independent of the next one's, mesh units
 
   struct Match {
     std::uint32_t of_a;
@@ -177,6 +178,10 @@ struct Joint::Impl {
       system.add(glm::dvec3(p) - pivot, n, offset, kWallWeight * tukey(offset, reach));
     }
   }
+
+  void look_at_contact(const Rigid& pose, Evidence& e) const;
+  void look_for_penetration(const Rigid& pose, Evidence& e) const;
+  void look_at_walls(const Rigid& pose, Evidence& e) const;
 };
 
 Joint::Joint(const Fragment& a, const Fragment& b) : impl_(std::make_unique<Impl>()) {
@@ -186,10 +191,12 @@ Joint::Joint(const Fragment& a, const Fragment& b) : impl_(std::make_unique<Impl
   d.thickness = ta > 0 && tb > 0 ? std::min(ta, tb) : 0.0;
   d.spacing = std::max(a.facets.samples.spacing, b.facets.samples.spacing);
   const double scan = std::max(a.resolution, b.resolution);
-  d.tolerance = std::max(d.thickness > 0 ? 0.1 * d.thickness : 0.3 * d.spacing, 0.75 * scan);
-  const double course = std::max(d.thickness, 6.0 * d.spacing);
-  d.a = side_of(a, course);
-  d.b = side_of(b, course);
+  d.tolerance = std::max(d.thickness > 0 ? 0.05 * d.thickness : 0.15 * d.spacing, 0.6 * scan);
+  d.noise = 0.15 * scan;
+  d.patch = std::max(0.5 * d.thickness, 2.5 * d.spacing);
+  const double edge = std::max(0.2 * d.thickness, 1.2 * d.spacing);
+  d.a = side_of(a, edge);
+  d.b = side_of(b, edge);
 }
 
 Joint::~Joint() = default;
@@ -226,87 +233,139 @@ Rigid Joint::align(const Rigid& start, const AlignOptions& options) const {
   return pose;
 }
 
+namespace {
+
+/// 1.48 times the median absolute deviation: the standard deviation of what is not outliers.
+double robust_deviation(std::vector<double> values) {
+  const double middle = median(values);
+  for (double& v : values) v = std::abs(v - middle);
+  return 1.48 * median(values);
+}
+
+/// Heights of points above the quadric that fits them best, along `normal`.
+std::vector<double> heights_above_quadric(const std::vector<glm::dvec3>& points, const glm::dvec3& normal) {
+  const glm::dmat3 frame = frame_of(normal);
+  glm::dvec3 centre(0.0);
+  for (const auto& p : points) centre += p / static_cast<double>(points.size());
+  double size = 0.0;
+  for (const auto& p : points) size = std::max(size, glm::distance(p, centre));
+  Matrix6 matrix = 1e-9 * static_cast<double>(points.size()) * Matrix6::Identity();
+  Vector6 right = Vector6::Zero();
+  std::vector<Vector6> rows;
+  std::vector<double> heights;
+  for (const auto& p : points) {
+    const glm::dvec3 q = (p - centre) * frame / size;
+    Vector6 row;
+    row << 1.0, q.x, q.y, q.x * q.x, q.x * q.y, q.y * q.y;
+    matrix += row * row.transpose();
+    right += q.z * row;
+    rows.push_back(row);
+    heights.push_back(q.z);
+  }
+  const Vector6 fit = matrix.ldlt().solve(right);
+  for (std::size_t i = 0; i < points.size(); ++i) heights[i] = size * (heights[i] - fit.dot(rows[i]));
+  return heights;
+}
+
+}  // namespace
+
 Evidence Joint::evidence(const Rigid& pose) const {
   const Impl& d = *impl_;
+  Evidence e;
+  d.look_at_contact(pose, e);
+  d.look_for_penetration(pose, e);
+  if (d.thickness > 0) d.look_at_walls(pose, e);
+  return e;
+}
+
+void Joint::Impl::look_at_contact(const Rigid& pose, Evidence& e) const {
   const glm::mat3 r(pose.rotation);
   const glm::vec3 t(pose.translation);
-  Evidence e;
   std::vector<double> gaps;
-  double cross = 0.0;
-  double own = 0.0;
-  double left = 0.0;
-  double depth = 0.0;
-  double inside = 0.0;
+  std::vector<double> core_gaps;
+  std::vector<glm::dvec3> core;
+  glm::dvec3 normal(0.0);
   glm::dvec3 low(1e300);
   glm::dvec3 high(-1e300);
-  const double over = 4.0 * d.tolerance;
-  for (std::size_t i = 0; i < d.b.broken.points.size(); ++i) {
-    const glm::vec3 p = apply(r, t, d.b.broken.points[i]);
-    const auto hit = d.a.broken_index->nearest(p);
+  double touching = 0.0;
+  for (std::size_t i = 0; i < b.broken.points.size(); ++i) {
+    const glm::vec3 p = apply(r, t, b.broken.points[i]);
+    const auto hit = a.broken_index->nearest(p);
     if (!hit) continue;
-    const glm::vec3 n = d.a.broken.normals[hit->first];
-    const glm::vec3 offset = p - d.a.broken.points[hit->first];
+    const glm::vec3 n = a.broken.normals[hit->first];
+    const glm::vec3 offset = p - a.broken.points[hit->first];
     const auto gap = static_cast<double>(glm::dot(offset, n));
     const double aside = std::sqrt(std::max(0.0, static_cast<double>(glm::dot(offset, offset)) - gap * gap));
-    if (aside > d.spacing || std::abs(gap) > 3.0 * over) continue;
-    if (glm::dot(n, r * d.b.broken.normals[i]) > kFacing) continue;
-    if (std::abs(gap) < over) e.shared_area += d.b.sample_area;
-    if (gap < -2.0 * d.tolerance) {
-      inside += 1.0;
-      depth -= gap;
-    }
-    if (std::abs(gap) > d.tolerance) continue;
+    if (aside > spacing || std::abs(gap) > 4.0 * tolerance) continue;
+    if (glm::dot(n, r * b.broken.normals[i]) > kFacing) continue;
     gaps.push_back(gap);
+    normal += glm::dvec3(n);
+    if (!b.broken.edge[i] && !a.broken.edge[hit->first]) {
+      core.emplace_back(p);
+      core_gaps.push_back(gap);
+    }
+    if (std::abs(gap) > tolerance) continue;
+    touching += 1.0;
     low = glm::min(low, glm::dvec3(p));
     high = glm::max(high, glm::dvec3(p));
-    const glm::vec3 relief_a = d.a.broken.relief[hit->first];
-    const glm::vec3 relief_b = r * d.b.broken.relief[i];
-    cross -= 2.0 * static_cast<double>(glm::dot(relief_a, relief_b));
-    own += static_cast<double>(glm::dot(relief_a, relief_a) + glm::dot(relief_b, relief_b));
-    const glm::vec3 sum = relief_a + relief_b;
-    left += static_cast<double>(glm::dot(sum, sum));
   }
-  const auto count = static_cast<double>(gaps.size());
-  e.contact_area = count * d.b.sample_area;
-  e.penetration_area = inside * d.b.sample_area;
+  e.contact_area = touching * b.sample_area;
+  e.shared_area = static_cast<double>(gaps.size()) * b.sample_area;
+  if (touching > 0) e.length = glm::length(high - low);
+  e.gap_median = median(gaps);
+  if (core.size() < 12 || !(glm::length(normal) > 0)) return;
+  e.gap_spread = robust_deviation(core_gaps);
+  e.relief = robust_deviation(heights_above_quadric(core, glm::normalize(normal)));
+  const double patches = static_cast<double>(core.size()) * b.sample_area / (patch * patch);
+  e.information =
+      0.5 * patches *
+      std::log((e.relief * e.relief + noise * noise) / (e.gap_spread * e.gap_spread + noise * noise));
+}
+
+void Joint::Impl::look_for_penetration(const Rigid& pose, Evidence& e) const {
+  const glm::mat3 r(pose.rotation);
+  const glm::vec3 t(pose.translation);
+  const double deepest = thickness > 0 ? 0.6 * thickness : 8.0 * spacing;
+  const std::size_t step = std::max<std::size_t>(1, b.body.points.size() / 4000);
+  double inside = 0.0;
+  double depth = 0.0;
+  for (std::size_t i = 0; i < b.body.points.size(); i += step) {
+    const glm::vec3 p = apply(r, t, b.body.points[i]);
+    const auto hit = a.body_index->nearest(p);
+    if (!hit || static_cast<double>(hit->second) > deepest) continue;
+    const glm::vec3 offset = p - a.body.points[hit->first];
+    const auto gap = static_cast<double>(glm::dot(offset, a.body.normals[hit->first]));
+    if (gap > -3.0 * tolerance || -gap < 0.7 * static_cast<double>(hit->second)) continue;
+    inside += 1.0;
+    depth -= gap;
+  }
+  e.penetration_area = inside * static_cast<double>(step) * b.sample_area;
   e.penetration = inside > 0 ? depth / inside : 0.0;
-  if (count > 0) {
-    e.explained = cross / (own + 2.0 * count * 0.02 * 0.02);
-    e.relief = std::sqrt(0.5 * own / count);
-    e.residual = std::sqrt(left / count);
-    e.length = glm::length(high - low);
-    e.gap_median = median(gaps);
-    for (double& g : gaps) g = std::abs(g - e.gap_median);
-    e.gap_spread = median(gaps);
+}
+
+void Joint::Impl::look_at_walls(const Rigid& pose, Evidence& e) const {
+  const glm::mat3 r(pose.rotation);
+  const glm::vec3 t(pose.translation);
+  double squares = 0.0;
+  double found = 0.0;
+  double all = 0.0;
+  for (std::size_t i = 0; i < b.walls.points.size(); ++i) {
+    const glm::vec3 p = apply(r, t, b.walls.points[i]);
+    const auto seam = a.broken_index->nearest(p);
+    if (!seam || static_cast<double>(seam->second) > kWallNear * thickness) continue;
+    all += 1.0;
+    const auto hit = a.wall_index->nearest(p);
+    if (!hit || static_cast<double>(hit->second) > 2.0 * kWallNear * thickness) continue;
+    const glm::dvec3 n_b(r * b.walls.normals[i]);
+    const glm::dvec3 n_a(a.walls.normals[hit->first]);
+    if (glm::dot(n_a, n_b) < kWallAlike) continue;
+    const double offset = glm::dot(glm::dvec3(p - a.walls.points[hit->first]), glm::normalize(n_a + n_b));
+    if (std::abs(offset) > 0.3 * thickness) continue;
+    squares += offset * offset;
+    found += 1.0;
   }
-  if (d.thickness > 0) {
-    double squares = 0.0;
-    double bend = 0.0;
-    double found = 0.0;
-    double all = 0.0;
-    for (std::size_t i = 0; i < d.b.walls.points.size(); ++i) {
-      const glm::vec3 p = apply(r, t, d.b.walls.points[i]);
-      const auto seam = d.a.broken_index->nearest(p);
-      if (!seam || static_cast<double>(seam->second) > kWallNear * d.thickness) continue;
-      all += 1.0;
-      const auto hit = d.a.wall_index->nearest(p);
-      if (!hit || static_cast<double>(hit->second) > 2.0 * kWallNear * d.thickness) continue;
-      const glm::dvec3 n_b(r * d.b.walls.normals[i]);
-      const glm::dvec3 n_a(d.a.walls.normals[hit->first]);
-      if (glm::dot(n_a, n_b) < 0.5) continue;
-      const double offset = glm::dot(glm::dvec3(p - d.a.walls.points[hit->first]), glm::normalize(n_a + n_b));
-      if (std::abs(offset) > 0.5 * d.thickness) continue;
-      squares += offset * offset;
-      bend += std::acos(std::min(1.0, glm::dot(n_a, n_b)));
-      found += 1.0;
-    }
-    if (found > 0) {
-      e.wall_step = std::sqrt(squares / found);
-      e.wall_bend = bend / found;
-    }
-    e.wall_share = all > 0 ? found / all : 0.0;
-  }
-  return e;
+  if (found > 0) e.wall_step = std::sqrt(squares / found);
+  if (all > 0) e.wall_share = found / all;
 }
 
 }  // namespace rejoin::match

@@ -17,22 +17,20 @@ struct AlignOptions {
 
 /// What speaks for a joint and what against it, at one pose.  Areas in squared mesh units.
 struct Evidence {
-  double contact_area = 0;      ///< B's broken surface that faces A's within the tolerance
-  double shared_area = 0;       ///< B's broken surface that lies over A's, touching or not
-  double penetration_area = 0;  ///< surface of either that lies clearly inside the other
-  double gap_median = 0;        ///< over the contact, mesh units, positive = apart
-  double gap_spread = 0;        ///< median absolute deviation of the gaps, mesh units
-  double penetration = 0;       ///< mean depth of what lies inside, mesh units; 0 if nothing does
-  double explained =
-      0;  ///< share of the relief of one side that the other explains, course of the facet taken off
-  double relief = 0;     ///< rms of that relief's normals, radians
-  double residual = 0;   ///< rms of what is left, radians
-  double wall_step = 0;  ///< thin pieces: rms offset of the walls across the seam, mesh units
-  double wall_bend =
-      0;  ///< thin pieces: mean angle between the walls across the seam beyond their own curvature, radians
-  double wall_share =
-      0;              ///< thin pieces: share of the contact's seam along which walls were found on both sides
-  double length = 0;  ///< longest extent of the contact, mesh units
+  double contact_area = 0;  ///< B's broken surface that faces A's within the tolerance
+  double shared_area =
+      0;                  ///< B's broken surface that lies over A's, touching or not (within four tolerances)
+  double gap_median = 0;  ///< over the shared area, mesh units, positive = apart
+  double gap_spread = 0;  ///< robust deviation (1.48 MAD) of the gaps, mesh units
+  double relief = 0;      ///< robust deviation of the shared surface from a quadric: what there is to explain
+  double information =
+      0;  ///< how much shape agrees: n/2 log((relief^2 + noise^2) / (gap_spread^2 + noise^2)), nats,
+          ///< n = independent patches of the shared area.  Flat on flat gives none.
+  double penetration = 0;  ///< mean depth of what lies inside the other body, mesh units; 0 if nothing does
+  double penetration_area = 0;  ///< surface of B that lies clearly inside A's body
+  double wall_step = 0;         ///< thin pieces: rms offset of the walls across the seam, mesh units
+  double wall_share = 0;        ///< thin pieces: share of the walls at the seam that go on on the other side
+  double length = 0;            ///< longest extent of the contact, mesh units
 };
 
 /// Two prepared fragments, indexed for alignment.  Poses are B -> A, both relative to their mesh's origin.
