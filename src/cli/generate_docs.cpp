@@ -41,10 +41,11 @@ std::string man_page(const CLI::App& app, const std::string& title) {
          "interrupted.\n";
 }
 
-/// The long options of a command, separated by blanks.
+/// The visible long options of a command, separated by blanks.
 std::string long_options(const CLI::App& app) {
   std::string words;
   for (const CLI::Option* option : app.get_options()) {
+    if (option->get_group().empty()) continue;
     for (const std::string& name : option->get_lnames()) words += "--" + name + " ";
   }
   return words;
