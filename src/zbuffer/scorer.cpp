@@ -3,32 +3,30 @@
 #include "core/error.hpp"
 #include "zbuffer/detail/backends.hpp"
 #include "zbuffer/detail/view.hpp"
-#if __has_include("zbuffer/gl/gl_backend.hpp")
 #include "zbuffer/gl/gl_backend.hpp"
-#define REJOIN_GL_BACKENDS
-#endif
 
 namespace rejoin::zbuffer {
 namespace {
 
-#ifdef REJOIN_GL_BACKENDS
-BackendInfo probe_gl(Backend backend) {
-  return gl::probe(backend);
+/// Software GL is the slowest way to draw, a GPU the fastest.
+bool has_hardware_gpu() {
+  static const bool found = [] {
+    const BackendInfo info = gl::probe(Backend::Gpu);
+    return info.available && !gl::is_software(info);
+  }();
+  return found;
 }
-#else
-BackendInfo probe_gl(Backend backend) {
-  return {backend, false, "", "built without GL"};
-}
-#endif
 
-std::unique_ptr<Scorer> make_gl(Backend backend, const mesh::Mesh& a, const mesh::Mesh& b,
-                                const ViewOptions& options) {
-#ifdef REJOIN_GL_BACKENDS
-  return gl::make(backend, a, b, options);
-#else
-  static_cast<void>(a), static_cast<void>(b), static_cast<void>(options);
-  throw BackendError(std::string(name_of(backend)), "built without GL", "choose raster");
-#endif
+/// \param options  completed
+std::unique_ptr<Scorer> make_fastest(const mesh::Mesh& a, const mesh::Mesh& b, const ViewOptions& options) {
+  if (has_hardware_gpu()) {
+    try {
+      return gl::make(Backend::Gpu, a, b, options);
+    } catch (const BackendError&) {
+      // A GPU that is full or lost is no reason to stop: the CPU gives the same scores.
+    }
+  }
+  return detail::make_raster(a, b, options);
 }
 
 }  // namespace
@@ -55,23 +53,24 @@ std::unique_ptr<Scorer> make_scorer(Backend backend, const mesh::Mesh& a, const 
                                     const ViewOptions& options) {
   const ViewOptions complete = detail::completed(a, b, options);
   switch (backend) {
+    case Backend::Auto:
+      return make_fastest(a, b, complete);
     case Backend::Gpu:
     case Backend::OsMesa:
-      return make_gl(backend, a, b, complete);
+      return gl::make(backend, a, b, complete);
+    case Backend::Raster:
+      return detail::make_raster(a, b, complete);
     case Backend::RayCast:
       return detail::make_raycast(a, b, complete);
     case Backend::Reference:
       return detail::make_reference(a, b, complete);
-    case Backend::Auto:
-    case Backend::Raster:
-      break;
   }
-  return detail::make_raster(a, b, complete);
+  throw BackendError("backend", "has no such number", "choose one that `rejoin info` lists");
 }
 
 std::vector<BackendInfo> list_backends() {
-  return {probe_gl(Backend::Gpu),
-          probe_gl(Backend::OsMesa),
+  return {gl::probe(Backend::Gpu),
+          gl::probe(Backend::OsMesa),
           {Backend::Raster, true, detail::raster_renderer(), ""},
           {Backend::RayCast, true, detail::raycast_renderer(), ""},
           {Backend::Reference, true, detail::reference_renderer(), ""}};
