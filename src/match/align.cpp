@@ -313,6 +313,7 @@ void Joint::Impl::look_at_contact(const Rigid& pose, Evidence& e) const {
   e.shared_area = static_cast<double>(gaps.size()) * b.sample_area;
   if (touching > 0) e.length = glm::length(high - low);
   e.gap_median = median(gaps);
+  if (glm::length(normal) > 0) e.normal = glm::normalize(normal);
   if (core.size() < 12 || !(glm::length(normal) > 0)) return;
   e.gap_spread = robust_deviation(core_gaps);
   e.relief = robust_deviation(heights_above_quadric(core, glm::normalize(normal)));

@@ -31,6 +31,7 @@ struct Evidence {
   double wall_step = 0;         ///< thin pieces: rms offset of the walls across the seam, mesh units
   double wall_share = 0;        ///< thin pieces: share of the walls at the seam that go on on the other side
   double length = 0;            ///< longest extent of the contact, mesh units
+  glm::dvec3 normal{0.0};       ///< mean outward normal of A's shared surface, unit; 0 without any
 };
 
 /// Two prepared fragments, indexed for alignment.  Poses are B -> A, both relative to their mesh's origin.

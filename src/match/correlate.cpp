@@ -191,6 +191,10 @@ Correlator::~Correlator() = default;
 Correlator::Correlator(Correlator&&) noexcept = default;
 Correlator& Correlator::operator=(Correlator&&) noexcept = default;
 
+long Correlator::shifts() const {
+  return static_cast<long>(impl_->size());
+}
+
 std::vector<Agreement> Correlator::peaks(const ReliefMap& other) {
   Impl& d = *impl_;
   d.transform_map(other, d.second);

@@ -42,6 +42,9 @@ class Correlator {
   Correlator(Correlator&&) noexcept;
   Correlator& operator=(Correlator&&) noexcept;
 
+  /// Shifts that one call looks at.
+  long shifts() const;
+
   /// Best local maxima of the score over all shifts, best first.
   std::vector<Agreement> peaks(const ReliefMap& other);
 

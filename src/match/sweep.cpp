@@ -115,8 +115,8 @@ std::vector<SweepHit> distinct(std::vector<SweepHit> hits, double near, double r
   return kept;
 }
 
-std::vector<SweepHit> sweep_facets(const FacetPatch& a, const FacetPatch& b, const Task& task,
-                                   double resolution, const SweepOptions& options) {
+SweepResult sweep_facets(const FacetPatch& a, const FacetPatch& b, const Task& task, double resolution,
+                         const SweepOptions& options) {
   const double pitch = pitch_for(a, b, resolution);
   const auto turns = turns_for(a, b, pitch, options.turn_step_px);
   const ReliefMap map_a = relief_of(a, pitch);
@@ -129,15 +129,18 @@ std::vector<SweepHit> sweep_facets(const FacetPatch& a, const FacetPatch& b, con
     height = std::max(height, maps_b.back().height);
   }
   Correlator correlator(map_a, width, height, CorrelateOptions{});
-  std::vector<SweepHit> hits;
+  SweepResult result;
+  result.evaluations = static_cast<long>(turns.size()) * correlator.shifts();
+  auto& hits = result.hits;
   for (std::size_t t = 0; t < turns.size(); ++t) {
     for (const Agreement& peak : correlator.peaks(maps_b[t])) {
       hits.push_back({task.facet_a, task.facet_b, turns[t], pitch, peak,
                       pose_of_peak(a, b, map_a, maps_b[t], peak, turns[t])});
     }
   }
-  return distinct(std::move(hits), 3.0 * pitch, 0.5 * std::min(a.length, b.length),
-                  static_cast<std::size_t>(options.per_pair_of_facets));
+  result.hits = distinct(std::move(hits), 3.0 * pitch, 0.5 * std::min(a.length, b.length),
+                         static_cast<std::size_t>(options.per_pair_of_facets));
+  return result;
 }
 
 std::vector<int> candidates(const Fragment& fragment, const std::vector<int>& chosen) {
@@ -164,14 +167,13 @@ std::vector<FacetPatch> patches_of(const Fragment& fragment, const std::vector<i
 
 }  // namespace
 
-std::vector<SweepHit> sweep(const Fragment& a, const Fragment& b, const SweepOptions& options,
-                            const Context& context) {
+SweepResult sweep(const Fragment& a, const Fragment& b, const SweepOptions& options, const Context& context) {
   const auto list_a = candidates(a, options.facets_a);
   const auto list_b = candidates(b, options.facets_b);
   const auto patches_a = patches_of(a, list_a);
   const auto patches_b = patches_of(b, list_b);
   const double resolution = std::max(a.resolution, b.resolution);
-  std::vector<std::vector<SweepHit>> found(patches_a.size() * patches_b.size());
+  std::vector<SweepResult> found(patches_a.size() * patches_b.size());
   parallel_for(found.size(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
       if (context.cancelled()) return;
@@ -181,10 +183,14 @@ std::vector<SweepHit> sweep(const Fragment& a, const Fragment& b, const SweepOpt
       found[k] = sweep_facets(patches_a[i], patches_b[j], {list_a[i], list_b[j]}, resolution, options);
     }
   });
-  std::vector<SweepHit> hits;
-  for (const auto& part : found) hits.insert(hits.end(), part.begin(), part.end());
-  return distinct(std::move(hits), 3.0 * resolution, 0.25 * std::min(a.diameter, b.diameter),
-                  static_cast<std::size_t>(options.most));
+  SweepResult result;
+  for (const auto& part : found) {
+    result.hits.insert(result.hits.end(), part.hits.begin(), part.hits.end());
+    result.evaluations += part.evaluations;
+  }
+  result.hits = distinct(std::move(result.hits), 3.0 * resolution, 0.25 * std::min(a.diameter, b.diameter),
+                         static_cast<std::size_t>(options.most));
+  return result;
 }
 
 }  // namespace rejoin::match

@@ -28,8 +28,12 @@ struct SweepOptions {
   int most = 96;                ///< peaks kept in all
 };
 
-/// Peaks of all pairs of facets, best first, near-equal poses once.  Deterministic for any number of threads.
-std::vector<SweepHit> sweep(const Fragment& a, const Fragment& b, const SweepOptions& options,
-                            const Context& context);
+struct SweepResult {
+  std::vector<SweepHit> hits;  ///< best first, near-equal poses once
+  long evaluations = 0;        ///< poses (turn and shift) whose agreement was computed
+};
+
+/// Correlates all pairs of facets.  Deterministic for any number of threads.
+SweepResult sweep(const Fragment& a, const Fragment& b, const SweepOptions& options, const Context& context);
 
 }  // namespace rejoin::match

@@ -1,0 +1,33 @@
+#include <utility>
+
+#include "core/error.hpp"
+#include "match/match.hpp"
+#include "mesh/surface.hpp"
+
+namespace rejoin::match {
+namespace {
+
+constexpr std::size_t kCoarseFaces = 40000;
+
+}  // namespace
+
+Fragment prepare(std::string path, mesh::Mesh scan, const Context& context) {
+  context.report("prepare " + path, 0.0);
+  Fragment fragment;
+  fragment.path = std::move(path);
+  fragment.scan = std::move(scan);
+  fragment.surface = fragment.scan.is_cloud() ? mesh::surface_of_cloud(fragment.scan) : fragment.scan;
+  if (fragment.surface.faces.empty()) {
+    throw InputError(fragment.path, "no surface could be laid through its points", "scan it more densely");
+  }
+  fragment.coarse = fragment.surface.faces.size() > kCoarseFaces
+                        ? mesh::simplify(fragment.surface, kCoarseFaces)
+                        : fragment.surface;
+  fragment.diameter = mesh::diameter(fragment.surface);
+  fragment.resolution = mesh::resolution(fragment.surface);
+  fragment.facets = mesh::segment(fragment.surface);
+  context.report("prepare " + fragment.path, 1.0);
+  return fragment;
+}
+
+}  // namespace rejoin::match

@@ -1,0 +1,65 @@
+#include "match/verify.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "match/esa_search.hpp"
+#include "match/pose_space.hpp"
+
+namespace rejoin::match {
+namespace {
+
+constexpr double kEven = 11.0;  // strength at which a joint is as likely as not
+constexpr double kSlope = 2.0;  // strength that multiplies the odds by e
+constexpr double kSure = 0.97;
+constexpr double kPossible = 0.3;
+
+}  // namespace
+
+double strength(const Evidence& evidence) {
+  const double against = evidence.shared_area + evidence.penetration_area;
+  return against > 0 ? evidence.information * evidence.contact_area / against : 0.0;
+}
+
+double score_of(double strength) {
+  return 1.0 / (1.0 + std::exp(-(strength - kEven) / kSlope));
+}
+
+Verdict verdict_of(double score) {
+  if (score >= kSure) return Verdict::Join;
+  return score >= kPossible ? Verdict::Unsure : Verdict::NoJoin;
+}
+
+Verifier::Verifier(const Fragment& a, const Fragment& b, const Options& options)
+    : a_(a), b_(b), view_(whole_fragment_view(a, b, options.resolution)) {
+  raster_ = zbuffer::make_scorer(options.backend, a.coarse, b.coarse, view_);
+  raycast_ = zbuffer::make_scorer(zbuffer::Backend::RayCast, a.surface, b.surface, view_);
+}
+
+Candidate Verifier::candidate(const Rigid& pose, const Evidence& evidence, double strength) {
+  Candidate c;
+  const Rigid to_file_a{glm::dmat3(1.0), a_.surface.origin};
+  const Rigid from_file_b{glm::dmat3(1.0), -b_.surface.origin};
+  c.pose = to_file_a * pose * from_file_b;
+  c.score = score_of(strength);
+  c.error.contact_area = evidence.contact_area;
+  c.error.gap_median = evidence.gap_median;
+  c.error.penetration = evidence.penetration;
+  const glm::dvec3 direction = glm::length(evidence.normal) > 0 ? evidence.normal : glm::dvec3(0, 0, 1);
+  const ViewCentres centres{a_.surface.origin + glm::dvec3(view_.centre_a),
+                            b_.surface.origin + glm::dvec3(view_.centre_b)};
+  c.view = facing_view(c.pose, direction, centres).view;
+  const std::array<zbuffer::ViewPair, 1> views{c.view};
+  std::array<zbuffer::PairScore, 1> scores;
+  raster_->score(views, scores);
+  c.error.depth = static_cast<double>(scores[0].error);
+  c.error.slope = c.error.depth * view_.resolution;
+  const int covered = std::min(scores[0].covered_a, scores[0].covered_b);
+  c.error.overlap = covered > 0 ? static_cast<double>(scores[0].overlap) / covered : 0.0;
+  raycast_->score(views, scores);
+  c.error.raycast = static_cast<double>(scores[0].error) * view_.resolution;
+  return c;
+}
+
+}  // namespace rejoin::match

@@ -1,0 +1,38 @@
+/// The last look at a pose: figures for the report, and how likely the pieces join.
+#pragma once
+
+#include "match/align.hpp"
+#include "match/match.hpp"
+
+namespace rejoin::match {
+
+/// What the evidence is worth: information, less what the joint leaves open or overlaps.  Comparable across pairs.
+double strength(const Evidence& evidence);
+
+/// Strength -> probability that the pieces join, 0 .. 1.  \source docs/scoring.md tells how it was calibrated.
+double score_of(double strength);
+
+/// \param score  of the best candidate
+Verdict verdict_of(double score);
+
+/// Measures candidates of one pair by rasterised and by ray-cast depth maps of the whole fragments.
+class Verifier {
+ public:
+  /// The fragments must outlive the object.  \throws BackendError as make_scorer
+  Verifier(const Fragment& a, const Fragment& b, const Options& options);
+
+  /// \param pose  B -> A, relative to the meshes' origins
+  Candidate candidate(const Rigid& pose, const Evidence& evidence, double strength);
+
+  zbuffer::Backend backend() const { return raster_->backend(); }
+  std::string renderer() const { return raster_->renderer(); }
+
+ private:
+  const Fragment& a_;
+  const Fragment& b_;
+  zbuffer::ViewOptions view_;
+  std::unique_ptr<zbuffer::Scorer> raster_;
+  std::unique_ptr<zbuffer::Scorer> raycast_;
+};
+
+}  // namespace rejoin::match
