@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <chrono>
+#include <cmath>
 #include <optional>
 
 #include "cli/arguments.hpp"
@@ -37,13 +38,17 @@ std::string pose_text(const Rigid& pose) {
   return text;
 }
 
+std::string measured(double value) {
+  return std::isfinite(value) ? fmt::format("{:.4f}", value) : std::string("not measured");
+}
+
 std::string summary(const match::Result& result) {
   if (result.candidates.empty()) return fmt::format("{}: no pose was found\n", name_of(result.verdict));
   const match::Candidate& best = result.candidates.front();
   const match::JointError& error = best.error;
   return fmt::format("{}, score {:.3f}\n", name_of(result.verdict), best.score) + pose_text(best.pose) +
-         fmt::format("error: slope {:.4f}, ray-cast {:.4f}, overlap {:.0f} %\n", error.slope, error.raycast,
-                     100.0 * error.overlap) +
+         fmt::format("error: slope {}, ray-cast {}, overlap {:.0f} %\n", measured(error.slope),
+                     measured(error.raycast), 100.0 * error.overlap) +
          fmt::format("contact: area {:.4g}, median gap {:.3g}, penetration {:.3g} (in the scans' unit)\n",
                      error.contact_area, error.gap_median, error.penetration);
 }

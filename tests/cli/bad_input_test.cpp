@@ -67,6 +67,10 @@ INSTANTIATE_TEST_SUITE_P(
                       BadFile{"ZeroArea", "flat.obj",
                               "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nf 1 2 3\nf 2 3 4\n"},
                       BadFile{"SingleTriangle", "one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
+                      BadFile{"TwoPoints", "two.ply",
+                              "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+                              "property float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
+                              "end_header\n0 0 0 0 0 1\n1 0 0 0 0 1\n"},
                       BadFile{"UnknownExtension", "scan.xyzzy", kTetrahedron},
                       BadFile{"NoExtension", "scan", kTetrahedron}),
     [](const auto& info) { return std::string(info.param.name); });

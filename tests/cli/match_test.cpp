@@ -1,5 +1,8 @@
 /// rejoin match as a whole, on a block cut along a known surface.
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
@@ -139,6 +142,21 @@ TEST_F(MatchCommand, InterruptWritesWhatWasFoundAndExitsWith130) {
   const Finished finished = running.finish();
   EXPECT_EQ(finished.exit_code, 130) << finished.err;
   EXPECT_EQ(ordered_json::parse(read_file(json))["search"]["interrupted"], true);
+}
+
+// A pipe that nobody writes to holds the program inside the loader; opening our end waits until it is there.
+TEST(Interrupt, WhileReadingEndsAtOnceWith130) {
+  const TemporaryFolder folder;
+  const std::string scan = folder / "endless.ply";
+  ASSERT_EQ(mkfifo(scan.c_str(), 0600), 0);
+  Running running({"facets", scan});
+  const int our_end = open(scan.c_str(), O_WRONLY);
+  running.interrupt();
+  const Finished finished = running.finish();
+  close(our_end);
+  EXPECT_EQ(finished.exit_code, 130);
+  EXPECT_EQ(finished.out, "");
+  EXPECT_NE(finished.err.find("interrupted"), std::string::npos);
 }
 
 }  // namespace
