@@ -180,6 +180,19 @@ TEST_P(GlPaths, NothingDependsOnTheUnitOfLength) {
   }
 }
 
+TEST_P(GlPaths, NoPathMisusesOpenGl) {
+  // A debug context makes the scorer throw at whatever the driver objects to.
+  const auto engine = std::make_shared<Engine>(make_context(GetParam(), {.library = {}, .debug = true}));
+  const mesh::Mesh a = test::bumpy_sphere(2, 11);
+  const auto poses = test::random_poses(20, 40);
+  for (const Path path : {Path::ComputeBuffer, Path::ComputeShared, Path::Pipeline}) {
+    const auto s = make_gl_scorer(engine, GetParam(), a, a, {.resolution = kResolution}, path);
+    EXPECT_NO_THROW(score(*s, poses));
+    EXPECT_NO_THROW(s->depth_maps(poses[0]));
+    EXPECT_NO_THROW(score(*s, {}));
+  }
+}
+
 TEST_P(GlPaths, ScorersInTwoThreadsTakeTurns) {
   const mesh::Mesh a = test::bumpy_sphere(2, 10);
   const auto poses = test::random_poses(40, 39);

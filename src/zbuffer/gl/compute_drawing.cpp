@@ -37,7 +37,7 @@ Tuning tuning_of(const Limits& limits) {
 }
 
 std::size_t scratch_bytes(const Tuning& tuning) {
-  return static_cast<std::size_t>(tuning.group_size) * 16 + kLargeList * 4 + 64;
+  return 4 * (4 * static_cast<std::size_t>(tuning.group_size) + std::size_t{kLargeList} + 16);
 }
 
 /// Corner by corner and component by component, all triangles one after the other, as score.comp reads them.

@@ -72,7 +72,8 @@ class OsMesaContext : public Context {
   }
 
   void bind() override {
-    if (mesa_.make_current(context_.get(), pixels_.data(), GL_UNSIGNED_BYTE, kSide, kSide) == GL_FALSE) {
+    if (mesa_.make_current(context_.get(), pixels_.data(), GL_UNSIGNED_BYTE, GLsizei{kSide},
+                           GLsizei{kSide}) == GL_FALSE) {
       throw BackendError(subject(), "the OSMesa context cannot be made current", kMend);
     }
   }
@@ -80,7 +81,7 @@ class OsMesaContext : public Context {
 
  private:
   // Everything is drawn into textures; the context's own picture only has to exist.
-  static constexpr int kSide = 16;
+  static constexpr std::size_t kSide = 16;
 
   OsMesa mesa_;
   std::array<unsigned char, kSide * kSide * 4> pixels_{};
