@@ -11,7 +11,8 @@ namespace rejoin::match {
 namespace {
 
 constexpr double kTurn = 6.283185307179586;
-constexpr double kShiftRange = 0.1;  // of R, section 2
+// A range must not be empty; a hundredth of a degree is far below what a depth map shows.
+constexpr double kLeastAngle = 1.7e-4;
 const glm::dvec3 kZ(0, 0, 1);
 
 void require_length(const glm::dvec3& axis, const char* option) {
@@ -21,9 +22,9 @@ void require_length(const glm::dvec3& axis, const char* option) {
   }
 }
 
-std::vector<anneal::Variable> variables_of(double diameter, const anneal::Variable& tilt_a,
+std::vector<anneal::Variable> variables_of(double reach, const anneal::Variable& tilt_a,
                                            const anneal::Variable& tilt_b) {
-  const anneal::Variable shift{-kShiftRange * diameter, kShiftRange * diameter, false};
+  const anneal::Variable shift{-reach, reach, false};
   const anneal::Variable turn{0, kTurn, true};
   return {tilt_a, tilt_a, turn, shift, shift, tilt_b, tilt_b};
 }
@@ -72,30 +73,29 @@ zbuffer::ViewPair SearchSpace::view(std::span<const double> point) const {
   return view_of(pose, alignment, order);
 }
 
-SearchSpace free_space(double diameter) {
+SearchSpace free_space(double reach) {
   SearchSpace space;
   const anneal::Variable turn{0, kTurn, true};
-  space.variables = variables_of(diameter, turn, turn);
+  space.variables = variables_of(reach, turn, turn);
   return space;
 }
 
 SearchSpace direction_space(const glm::dvec3& direction_a, const glm::dvec3& direction_b,
-                            double tolerance_rad, double diameter) {
-  // A range must not be empty; a hundredth of a degree is far below what a depth map shows.
-  const double reach = std::max(tolerance_rad, 1.7e-4);
+                            double tolerance_rad, double reach) {
+  const double most = std::max(tolerance_rad, kLeastAngle);
   SearchSpace space;
-  const anneal::Variable tilt{-reach, reach, false};
-  space.variables = variables_of(diameter, tilt, tilt);
+  const anneal::Variable tilt{-most, most, false};
+  space.variables = variables_of(reach, tilt, tilt);
   space.alignment.rotation_a = rotation_between(glm::normalize(direction_a), kZ);
   space.alignment.rotation_b = rotation_between(glm::normalize(direction_b), kZ);
   return space;
 }
 
 SearchSpace material_space(const glm::dvec3& axis_a, const glm::dvec3& axis_b, double jitter_rad,
-                           double diameter, bool opposite) {
-  const double reach = std::max(jitter_rad, 1.7e-4);
+                           double reach, bool opposite) {
+  const double most = std::max(jitter_rad, kLeastAngle);
   SearchSpace space;
-  space.variables = variables_of(diameter, {0, kTurn, true}, {-reach, reach, false});
+  space.variables = variables_of(reach, {0, kTurn, true}, {-most, most, false});
   space.alignment.rotation_a = rotation_between(glm::normalize(axis_a), kZ);
   space.alignment.rotation_b = rotation_between(glm::normalize(axis_b), opposite ? -kZ : kZ);
   space.order = RotationOrder::ZFirst;

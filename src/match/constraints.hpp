@@ -44,9 +44,9 @@ struct SearchSpace {
   zbuffer::ViewPair view(std::span<const double> point) const;
 };
 
-/// All poses: angles 0 .. 2 pi, |x1|, |y1| <= 0.1 R.
-/// \param diameter  R, the larger of the two fragments', mesh units
-SearchSpace free_space(double diameter);
+/// All poses: angles 0 .. 2 pi, |x1|, |y1| <= reach.
+/// \param reach  the paper's is 0.1 R, R the larger diameter of the two fragments; mesh units
+SearchSpace free_space(double reach);
 
 /// Facing fracture directions: each is laid along its Z axis; theta and phi of both stay within +-tolerance.
 /// \param direction_a, direction_b  outwards, file axes, any length but 0

@@ -99,7 +99,8 @@ class EsaRun {
   void search_facets(const std::vector<Combination>& combinations);
   void anneal(const Stand& stand, const std::vector<Combination>& combinations);
   void keep(const Stand& stand, const Combination& combination, int chain, const anneal::ChainResult& end);
-  std::vector<Combination> combinations(double diameter) const;
+  std::vector<Combination> combinations(double reach) const;
+  double reach(double diameter) const { return esa_.shift_range * diameter; }
   Stand whole_stand() const {
     return make_stand(mesh::simplify(a_.coarse, kMapFaces), mesh::simplify(b_.coarse, kMapFaces),
                       options_.backend, whole_fragment_view(a_, b_, options_.resolution));
@@ -122,17 +123,18 @@ void EsaRun::search_whole() {
   std::vector<Combination> list;
   if (plan_.material == MaterialUse::Restrict) {
     for (const bool opposite : {false, true}) {
-      list.push_back({.space = material_space(*options_.material_a, *options_.material_b,
-                                              esa_.jitter_deg * kRadians, larger_diameter(), opposite)});
+      list.push_back(
+          {.space = material_space(*options_.material_a, *options_.material_b, esa_.jitter_deg * kRadians,
+                                   reach(larger_diameter()), opposite)});
     }
   } else {
-    list.push_back({.space = free_space(larger_diameter())});
+    list.push_back({.space = free_space(reach(larger_diameter()))});
   }
   anneal(make_stand(a_.coarse, b_.coarse, options_.backend, whole_fragment_view(a_, b_, options_.resolution)),
          list);
 }
 
-std::vector<Combination> EsaRun::combinations(double diameter) const {
+std::vector<Combination> EsaRun::combinations(double reach) const {
   const int most = esa_.directions_per_fragment;
   const auto of_a = candidate_directions(a_, options_.directions_a, options_.facets_a, most);
   const auto of_b = candidate_directions(b_, options_.directions_b, options_.facets_b, most);
@@ -140,7 +142,7 @@ std::vector<Combination> EsaRun::combinations(double diameter) const {
   for (std::size_t m = 0; m < of_a.size(); ++m) {
     for (std::size_t n = 0; n < of_b.size(); ++n) {
       list.push_back(
-          {direction_space(of_a[m].direction, of_b[n].direction, options_.tolerance_deg * kRadians, diameter),
+          {direction_space(of_a[m].direction, of_b[n].direction, options_.tolerance_deg * kRadians, reach),
            static_cast<int>(m), static_cast<int>(n), of_a[m].facet, of_b[n].facet});
     }
   }
@@ -148,7 +150,7 @@ std::vector<Combination> EsaRun::combinations(double diameter) const {
 }
 
 void EsaRun::search_directions() {
-  std::vector<Combination> list = combinations(larger_diameter());
+  std::vector<Combination> list = combinations(reach(larger_diameter()));
   if (list.empty()) {
     stats_.warnings.push_back((a_.facets.facets.empty() ? a_.path : b_.path) +
                               ": no facet to take a direction from; give --direction-a and --direction-b");
@@ -190,7 +192,7 @@ void EsaRun::search_facets(const std::vector<Combination>& list) {
     const Alignment alignment = c.space.alignment;
     c.space =
         direction_space(glm::transpose(alignment.rotation_a) * up, glm::transpose(alignment.rotation_b) * up,
-                        options_.tolerance_deg * kRadians, diameter);
+                        options_.tolerance_deg * kRadians, reach(diameter));
     centre_on_silhouettes(c.space, *stand.scorer, stand.view_side, esa_.silhouette_rotations);
     anneal(stand, {c});
   }

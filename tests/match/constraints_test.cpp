@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/random.hpp"
+#include "match/esa_search.hpp"
 #include "planted_block.hpp"
 
 namespace rejoin::match {
@@ -87,7 +88,7 @@ TEST(Constraints, UnusableOnesAreRefusedByOptionName) {
 }
 
 TEST(Constraints, FreeSpaceHoldsEveryAngleAndATenthOfTheDiameter) {
-  const SearchSpace space = free_space(200);
+  const SearchSpace space = free_space(EsaOptions().shift_range * 200);
   ASSERT_EQ(space.variables.size(), kPoseSize);
   for (const PoseIndex v : {kTheta1, kPhi1, kRho1, kTheta2, kPhi2}) {
     EXPECT_TRUE(space.variables[v].wraps);
