@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <utility>
 
 #include "mesh/surface.hpp"
 
@@ -252,21 +253,40 @@ void EsaRun::keep(const Stand& stand, const Combination& combination, int chain,
   found_.push_back(h);
 }
 
-std::vector<EsaHypothesis> distinct(std::vector<EsaHypothesis> all, const Fragment& b, double diameter,
-                                    int most) {
+bool lower_energy(const EsaHypothesis& x, const EsaHypothesis& y) {
+  return x.energy < y.energy;
+}
+
+/// Poses that differ, lowest energy first.
+std::vector<EsaHypothesis> distinct(std::vector<EsaHypothesis> all, const Fragment& b, double diameter) {
   std::erase_if(all, [](const EsaHypothesis& h) { return !std::isfinite(h.energy); });
-  std::stable_sort(all.begin(), all.end(),
-                   [](const EsaHypothesis& x, const EsaHypothesis& y) { return x.energy < y.energy; });
+  std::stable_sort(all.begin(), all.end(), lower_energy);
   const glm::dvec3 centre = b.coarse.origin + view_centre(b.coarse);
   std::vector<EsaHypothesis> kept;
   for (const EsaHypothesis& h : all) {
-    if (static_cast<int>(kept.size()) >= most) break;
     const bool seen = std::any_of(kept.begin(), kept.end(), [&](const EsaHypothesis& k) {
       return same_pose(k.pose, h.pose, centre, diameter);
     });
     if (!seen) kept.push_back(h);
   }
   return kept;
+}
+
+/// The best of every combination of directions before the second best of any, as many as asked for: two smooth facets
+/// fit at countless poses, which would leave no place for the one pose of the fracture.
+std::vector<EsaHypothesis> shared_out(const std::vector<EsaHypothesis>& ranked, std::size_t most) {
+  std::map<std::pair<int, int>, std::size_t> taken;
+  std::vector<std::pair<std::size_t, std::size_t>> places;  // rank within its combination, rank among all
+  for (std::size_t k = 0; k < ranked.size(); ++k) {
+    places.emplace_back(taken[{ranked[k].direction_a, ranked[k].direction_b}]++, k);
+  }
+  std::sort(places.begin(), places.end());
+  std::vector<EsaHypothesis> chosen;
+  for (const auto& place : places) {
+    if (chosen.size() < most) chosen.push_back(ranked[place.second]);
+  }
+  std::stable_sort(chosen.begin(), chosen.end(), lower_energy);
+  return chosen;
 }
 
 }  // namespace
@@ -292,7 +312,8 @@ std::vector<EsaHypothesis> esa_search(const Fragment& a, const Fragment& b, cons
   EsaStats unused;
   std::vector<EsaHypothesis> all = EsaRun(a, b, options, esa, context, stats ? *stats : unused).search();
   if (esa.every_chain) return all;
-  return distinct(std::move(all), b, std::max(a.diameter, b.diameter), options.max_candidates);
+  const auto ranked = distinct(std::move(all), b, std::max(a.diameter, b.diameter));
+  return shared_out(ranked, static_cast<std::size_t>(std::max(0, options.max_candidates)));
 }
 
 }  // namespace rejoin::match

@@ -56,12 +56,13 @@ struct EsaStats {
   std::vector<std::string> warnings;
 };
 
-/// Anneals `options.chains` chains for every combination of directions (one combination without directions,
-/// two under a material axis that restricts: its two senses) and brings each chain's best view into contact.
-/// \return distinct poses with finite energy, lowest energy first, at most options.max_candidates (or every
-/// chain, see
-///         EsaOptions::every_chain); what was found so far if the context is cancelled; empty if a fragment
-///         has no facet to take directions from
+/// Anneals `options.chains` chains for every combination of directions (one combination without
+/// directions, two under a material axis that restricts: its two senses) and brings each chain's best view
+/// into contact.
+/// \return distinct poses with finite energy, lowest energy first, at most options.max_candidates; the best of
+///         every combination has a place before the second best of any.  EsaOptions::every_chain: all chains'
+///         ends instead.  What was found so far if the context is cancelled; empty if a fragment has no facet
+///         to take directions from
 /// \throws InputError constraints that do not go together (see plan_constraints)
 /// \throws BackendError the backend is missing
 /// \source papaioannou 2002, sections 4 and 5

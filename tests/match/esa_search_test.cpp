@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "core/parallel.hpp"
 #include "planted_block.hpp"
@@ -96,6 +98,19 @@ TEST(EsaSearch, HypothesesAreDistinctAndBestFirst) {
       EXPECT_FALSE(same_pose(found[i].pose, found[j].pose, centre, std::max(c.a.diameter, c.b.diameter)));
     }
   }
+}
+
+TEST(EsaSearch, EveryCombinationHasAPlaceBeforeAnyHasTwo) {
+  const Case c = planted(4);
+  Options options = with_directions(c);
+  options.directions_a.push_back(-c.pair.direction_a);
+  options.directions_b.push_back(-c.pair.direction_b);  // flat on flat: no error at any of many poses
+  options.max_candidates = 4;
+  std::set<std::pair<int, int>> combinations;
+  for (const EsaHypothesis& h : esa_search(c.a, c.b, options, {}, Context())) {
+    combinations.insert({h.direction_a, h.direction_b});
+  }
+  EXPECT_EQ(combinations.size(), 4U);
 }
 
 TEST(EsaSearch, SameSeedSamePosesForAnyNumberOfThreads) {
