@@ -35,6 +35,11 @@ struct BadFile {
   std::string content;
 };
 
+/// What GoogleTest and CTest show for the case.
+void PrintTo(const BadFile& value, std::ostream* out) {
+  *out << value.name;
+}
+
 class BadFileTest : public ::testing::TestWithParam<BadFile> {};
 
 void expect_failure(const Finished& finished, const std::string& names) {

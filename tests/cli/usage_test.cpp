@@ -16,6 +16,11 @@ struct WrongUse {
   const char* says;  ///< what the message must contain
 };
 
+/// What GoogleTest and CTest show for the case.
+void PrintTo(const WrongUse& value, std::ostream* out) {
+  *out << value.name;
+}
+
 class WrongUseTest : public ::testing::TestWithParam<WrongUse> {};
 
 TEST_P(WrongUseTest, IsOneLineOnStderrAndExitsWithTwo) {
