@@ -9,11 +9,6 @@
 #include "zbuffer/gl/gl_backend.hpp"
 #include "zbuffer/gl/objects.hpp"
 
-// OSMesa 22.3 forgets a context's buffers when the context is destroyed (about 1 KB each).
-extern "C" const char* __lsan_default_suppressions() {  // NOLINT(bugprone-reserved-identifier)
-  return "leak:libOSMesa.so";
-}
-
 namespace rejoin::zbuffer::gl {
 namespace {
 
