@@ -69,13 +69,17 @@ Mesh to_mesh(const Soup& soup) {
   return mesh;
 }
 
+bool is_usable(const glm::vec3& normal) {
+  const double length = glm::length(glm::dvec3(normal));
+  return length > 0 && std::isfinite(length);
+}
+
 /// Makes normals unit length; false if one is zero or not finite.
 bool normalize_all(std::vector<glm::vec3>& normals) {
   bool good = true;
   for (glm::vec3& normal : normals) {
-    const double length = glm::length(glm::dvec3(normal));
-    if (length > 0 && std::isfinite(length)) {
-      normal = glm::vec3(glm::dvec3(normal) / length);
+    if (is_usable(normal)) {
+      normal = glm::vec3(glm::normalize(glm::dvec3(normal)));
     } else {
       good = false;
     }
@@ -126,22 +130,40 @@ bool is_line(const std::vector<glm::vec3>& points) {
   });
 }
 
+/// Drops the points whose normal is zero or not finite; returns how many.
+std::size_t drop_without_normal(Mesh& mesh) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    if (!is_usable(mesh.normals[i])) continue;
+    mesh.vertices[kept] = mesh.vertices[i];
+    mesh.normals[kept] = mesh.normals[i];
+    if (!mesh.colours.empty()) mesh.colours[kept] = mesh.colours[i];
+    ++kept;
+  }
+  const std::size_t dropped = mesh.vertices.size() - kept;
+  mesh.vertices.resize(kept);
+  mesh.normals.resize(kept);
+  if (!mesh.colours.empty()) mesh.colours.resize(kept);
+  return dropped;
+}
+
 void clean_cloud(Loaded& loaded, const std::string& name) {
   Mesh& mesh = loaded.mesh;
-  if (is_line(mesh.vertices)) {
-    throw InputError(name, fmt::format("its {} points span no area", mesh.vertices.size()),
-                     "export the scan again");
-  }
-  if (mesh.normals.empty()) {
-    loaded.warnings.push_back(name +
-                              ": points have no normals, estimated them (export normals for a surer result)");
-    mesh.normals = estimate_normals(mesh.vertices);
-  } else if (!normalize_all(mesh.normals)) {
+  const std::size_t count = mesh.vertices.size();
+  const auto usable = std::count_if(mesh.normals.begin(), mesh.normals.end(), is_usable);
+  if (2 * static_cast<std::size_t>(usable) < count) {
     loaded.warnings.push_back(
-        name +
-        ": some points have no usable normal, estimated all normals (export normals for a surer result)");
-    mesh.normals = estimate_normals(mesh.vertices);
+        name + ": the points have no normals, estimated them (export normals for a surer result)");
+    mesh.normals.clear();
+  } else if (const std::size_t dropped = drop_without_normal(mesh); dropped > 0) {
+    loaded.warnings.push_back(
+        fmt::format("{}: dropped {} of {} points without a usable normal", name, dropped, count));
   }
+  if (is_line(mesh.vertices)) {
+    throw InputError(name, fmt::format("its {} points span no area", count), "export the scan again");
+  }
+  if (mesh.normals.empty()) mesh.normals = estimate_normals(mesh.vertices);
+  normalize_all(mesh.normals);
 }
 
 }  // namespace

@@ -47,7 +47,8 @@ std::vector<glm::vec<3, T>> triples(const draco::PointCloud& cloud, const draco:
 
 std::vector<glm::u8vec3> colours_of(const draco::PointCloud& cloud, const draco::PointAttribute& attribute,
                                     const std::string& name) {
-  const bool bytes = attribute.data_type() == draco::DT_UINT8;
+  // Draco itself takes normalised bytes to 0 .. 1.
+  const bool bytes = attribute.data_type() == draco::DT_UINT8 && !attribute.normalized();
   std::vector<glm::u8vec3> colours;
   for (const glm::dvec3& value : triples<double>(cloud, attribute, name)) {
     colours.emplace_back(glm::round(glm::clamp(value * (bytes ? 1.0 : 255.0), 0.0, 255.0)));

@@ -140,8 +140,10 @@ class GltfReader {
       return attributes.Get(key).Get<int>();
     };
     const std::span<const unsigned char> bytes = view_bytes(view.Get<int>());
-    return decode_draco({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name_,
-                        {number("POSITION"), number("NORMAL"), number("COLOR_0")});
+    Soup soup = decode_draco({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name_,
+                             {number("POSITION"), number("NORMAL"), number("COLOR_0")});
+    for (glm::u8vec3& colour : soup.colours) colour = to_srgb(glm::dvec3(colour) / 255.0);
+    return soup;
   }
 
   Soup read_primitive(const tinygltf::Primitive& primitive, int mode) const {

@@ -33,7 +33,7 @@ struct Source {
   std::string bytes;
 };
 
-/// \throws IoError the path cannot be read, is a folder, or is empty
+/// \throws IoError the file cannot be read   \throws InputError it is empty
 Source read_source(const std::filesystem::path& path);
 
 // Readers.  All throw IoError for a file that ends too early, InputError (with the place) for one that is not
