@@ -26,7 +26,7 @@ void score_one_pose(benchmark::State& state) {
   const auto scorer = make_scorer(backend, bumpy_sphere(faces, 1), bumpy_sphere(faces, 2),
                                   {.resolution = static_cast<int>(state.range(0))});
   int k = 0;
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     const ViewPair pose = pose_number(k++);
     PairScore score;
     scorer->score({&pose, 1}, {&score, 1});
@@ -37,13 +37,13 @@ void score_one_pose(benchmark::State& state) {
 BENCHMARK(score_one_pose<Backend::Raster>)->ArgsProduct({{64, 128, 256}, {1000, 10000, 100000}});
 BENCHMARK(score_one_pose<Backend::RayCast>)->ArgsProduct({{64, 128, 256}, {1000, 10000, 100000}});
 
-/// Argument: pixels.  The error alone, on two full maps.
+/// Argument: pixels.  The error alone.
 void error_of_two_maps(benchmark::State& state) {
   const auto pixels = static_cast<int>(state.range(0));
   const auto scorer =
       make_scorer(Backend::Raster, bumpy_sphere(10000, 1), bumpy_sphere(10000, 2), {.resolution = pixels});
   const auto [a, b] = scorer->depth_maps(pose_number(1));
-  for (auto _ : state) benchmark::DoNotOptimize(slope_difference(a, b, 1.0));
+  while (state.KeepRunning()) benchmark::DoNotOptimize(slope_difference(a, b, 1.0));
   state.SetItemsProcessed(state.iterations());
   state.SetBytesProcessed(state.iterations() * 2 * pixels * pixels * static_cast<int>(sizeof(float)));
 }

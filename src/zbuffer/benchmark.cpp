@@ -66,7 +66,7 @@ std::vector<Plan> plans_of(const BenchmarkOptions& options) {
   std::vector<int> threads = options.threads;
   if (threads.empty()) threads = {1, thread_count()};
   std::ranges::sort(threads);
-  threads.erase(std::ranges::unique(threads).begin(), threads.end());
+  threads.erase(std::unique(threads.begin(), threads.end()), threads.end());
   std::vector<Plan> plans;
   for (const Backend backend : chosen_backends(options)) {
     for (const int resolution : options.resolutions) {

@@ -76,7 +76,7 @@ TEST(SlopeSums, EveryInstructionSetGivesTheSameBits) {
   int sets = 0;
   with_each_instruction_set([&] {
     const SlopeSums sums = slope_sums(a.data(), b.data(), 75, 60);
-    EXPECT_EQ(std::memcmp(&sums.sum, &first.sum, sizeof sums.sum), 0);
+    EXPECT_EQ(sums.sum, first.sum);
     EXPECT_EQ(sums.overlap, first.overlap);
     ++sets;
   });
@@ -88,7 +88,7 @@ TEST(DrawSoup, EveryInstructionSetGivesTheSameBits) {
   const ViewOptions options{.resolution = 70, .view_side = 2.8};
   const Projection projection = projection_a(test::random_poses(1, 9)[0], options);
   const auto drawn = [&] {
-    std::vector<float> depth(70 * 70, HUGE_VALF);
+    std::vector<float> depth(std::size_t{70} * 70, HUGE_VALF);
     draw_soup(soup, projection, {depth.data(), 70, 70});
     return depth;
   };
@@ -108,7 +108,7 @@ TEST(DrawSoup, FarOutsideTheReachOfTheGridTheViewIsStillRight) {
   const auto first = static_cast<unsigned>(m.vertices.size());
   m.vertices.insert(m.vertices.end(), {{-1e-6F, -1e-6F, 0}, {1e-6F, -1e-6F, 0}, {0, 1e-6F, 0}});
   m.faces.emplace_back(first, first + 1, first + 2);
-  std::vector<float> depth(64 * 64, HUGE_VALF);
+  std::vector<float> depth(std::size_t{64} * 64, HUGE_VALF);
   draw_soup(soup_of(m), projection_a({}, {.resolution = 64, .view_side = 2e-7}), {depth.data(), 64, 64});
   for (const float d : depth) EXPECT_NEAR(d, 1e-7F, 1e-12F);
 }
