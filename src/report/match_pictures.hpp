@@ -1,0 +1,29 @@
+/// The files of `rejoin match --out DIR`.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "match/match.hpp"
+
+namespace rejoin::report {
+
+struct MatchOutputOptions {
+  int map_resolution = 256;  ///< pixels across the depth maps that are shown
+};
+
+/// Writes the pictures and files of the best candidate:
+///   match.png              the fragments opened, joined, their faces coloured by gap, a cut through the joint
+///   depth_a.png, depth_b.png, depth_difference.png   both maps along the joint (B's mirrored into A's frame), and where
+///                          their slopes differ
+///   convergence.svg        the search's course, or the candidates' scores
+///   joined.glb, joined.ply A and B moved onto it, in A's file coordinates, each in its own colour
+/// Each file is written whole or not at all.  Without a candidate only convergence.svg is written.
+/// \return the files, in the order in which they were written
+/// \throws IoError the folder or a file cannot be written
+std::vector<std::filesystem::path> write_match_outputs(const std::filesystem::path& folder,
+                                                       const match::Fragment& a, const match::Fragment& b,
+                                                       const match::Result& result,
+                                                       const MatchOutputOptions& options = {});
+
+}  // namespace rejoin::report

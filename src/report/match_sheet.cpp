@@ -1,0 +1,251 @@
+#include "report/match_sheet.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "report/colour_scale.hpp"
+#include "report/section.hpp"
+#include "report/views.hpp"
+
+namespace rejoin::report {
+namespace {
+
+constexpr int kWidth = 2000;
+constexpr int kHeight = 1300;
+constexpr int kMargin = 20;
+constexpr int kGutter = 14;
+constexpr int kUpper = 104;  ///< top of the first row
+constexpr int kUpperHeight = 540;
+constexpr int kLower = kUpper + kUpperHeight + kGutter;
+constexpr int kLowerHeight = kHeight - kLower - kMargin;
+constexpr int kCaption = 34;  ///< at the top of each panel
+constexpr double kFov = 18;   ///< degrees, of the shaded views
+
+void frame(Image& sheet, const Area& area, const std::string& caption) {
+  outline(sheet, area, {214, 216, 220});
+  draw_text(sheet, area.x + 12, area.y + 23, caption, {13, kInk, Align::Left, true});
+}
+
+/// The area below a panel's caption.
+Area inside(const Area& area) {
+  return {area.x + 1, area.y + kCaption, area.width - 2, area.height - kCaption - 1};
+}
+
+Image shaded(const Scene& scene, const std::vector<Body>& bodies, const glm::dvec3& back,
+             const glm::dvec3& up, const Area& area) {
+  RenderOptions options;
+  options.width = area.width;
+  options.height = area.height;
+  options.ambient_rays = 4;
+  const double aspect = static_cast<double>(area.width) / area.height;
+  return scene.render(fit_camera(bodies, back, up, aspect, kFov), options);
+}
+
+void put(Image& sheet, const Area& area, const std::string& caption, const Image& picture) {
+  const Area inner = inside(area);
+  paste(sheet, picture, inner.x, inner.y);
+  frame(sheet, area, caption);
+}
+
+/// Seen a little from above, so that the pieces look solid.
+glm::dvec3 raised(const glm::dvec3& back, const glm::dvec3& up) {
+  return glm::normalize(back + 0.35 * up);
+}
+
+void draw_upper_row(Image& sheet, const Joint& joint) {
+  const std::vector<Body> joined = joined_bodies(joint);
+  const Scene scene(joined);
+  const JointViews views = choose_views(joint, scene);
+  const Area apart{kMargin, kUpper, 690, kUpperHeight};
+  const glm::dvec3 up = up_for(joint, views.across);
+  const std::vector<Body> opened = opened_bodies(joint, views.across);
+  put(sheet, apart, "Apart: A left, B right, broken faces turned to the eye",
+      shaded(Scene(opened), opened, raised(views.across, up), up, inside(apart)));
+  struct View {
+    const char* caption;
+    glm::dvec3 back;
+  };
+  const std::array<View, 3> joined_views{{{"Joined", views.best},
+                                          {"Joined: across the seam", views.across},
+                                          {"Joined: along the seam", views.along}}};
+  const int left = apart.x + apart.width + kGutter;
+  const int width = (kWidth - kMargin - left - 2 * kGutter) / 3;
+  for (int k = 0; k < 3; ++k) {
+    const Area area{left + k * (width + kGutter), kUpper, width, kUpperHeight};
+    put(sheet, area, joined_views[k].caption,
+        shaded(scene, joined, joined_views[k].back, up_for(joint, joined_views[k].back), inside(area)));
+  }
+}
+
+/// An orthographic camera that looks at the contact from `back`, `right` to the right.
+Camera contact_camera(const Joint& joint, const glm::dvec3& back, const glm::dvec3& right, const Area& area) {
+  constexpr double kRoom = 1.12;
+  Camera camera;
+  camera.target = joint.centre;
+  camera.right = right;
+  camera.up = glm::cross(back, right);
+  const bool flat = std::abs(glm::dot(right, joint.along)) > 0.5;
+  const double across = flat ? joint.length : joint.width;
+  const double high = flat ? joint.width : joint.length;
+  camera.half_height = kRoom / 2 * std::max(high, across * area.height / area.width);
+  if (joint.contact.area <= 0)
+    camera.half_height = 0.5 * std::max(mesh::diameter(joint.a), mesh::diameter(joint.b));
+  return camera;
+}
+
+Image gap_view(const Joint& joint, bool of_a, const glm::dvec3& right, const Area& area) {
+  Body body = joined_bodies(joint)[of_a ? 0 : 1];
+  body.vertex_colours = gap_colours(of_a ? joint.gap_a : joint.gap_b, joint.reach);
+  RenderOptions options;
+  options.width = area.width;
+  options.height = area.height;
+  options.ambient_rays = 0;
+  options.relief = 0.35;  // enough to see the relief, little enough to read the colours
+  const glm::dvec3 back = of_a ? joint.normal : -joint.normal;
+  return Scene({body}).render(contact_camera(joint, back, right, area), options);
+}
+
+/// Both broken faces face on, opened like a book: what touches lies mirrored about the fold.
+void draw_gap_views(Image& sheet, const Joint& joint, const Area& area) {
+  const bool stacked = joint.length > 1.3 * joint.width;
+  const Area inner = inside(area);
+  Area first = inner;
+  Area second = inner;
+  if (stacked) {
+    first.height = inner.height / 2;
+    second = {inner.x, inner.y + first.height, inner.width, inner.height - first.height};
+  } else {
+    first.width = inner.width / 2;
+    second = {inner.x + first.width, inner.y, inner.width - first.width, inner.height};
+  }
+  const glm::dvec3 right_a = stacked ? joint.along : joint.across;
+  const glm::dvec3 right_b = stacked ? joint.along : -joint.across;
+  paste(sheet, gap_view(joint, true, right_a, first), first.x, first.y);
+  paste(sheet, gap_view(joint, false, right_b, second), second.x, second.y);
+  frame(sheet, area, "Broken faces by gap, opened like a book");
+  const glm::dvec2 from(second.x + (stacked ? 8 : 0), second.y + (stacked ? 0 : 8));
+  const glm::dvec2 to(stacked ? second.x + second.width - 8 : second.x,
+                      stacked ? second.y : second.y + second.height - 8);
+  draw_line(sheet, from, to, {150, 152, 158}, 1);
+  draw_text(sheet, first.x + 12, first.y + 22, "A", {14, kInk, Align::Left, true});
+  draw_text(sheet, second.x + 12, second.y + 22, "B", {14, kInk, Align::Left, true});
+}
+
+/// Share of the contact's vertices in each of `count` equal classes from -reach to reach.
+std::vector<double> histogram(const Joint& joint, int count) {
+  std::vector<double> result(count, 0.0);
+  double total = 0;
+  for (const auto* gaps : {&joint.gap_a, &joint.gap_b}) {
+    for (const float gap : *gaps) {
+      if (std::isnan(gap)) continue;
+      const auto at = static_cast<int>((gap / joint.reach + 1) / 2 * count);
+      result[std::clamp(at, 0, count - 1)] += 1;
+      total += 1;
+    }
+  }
+  for (double& share : result) share /= std::max(1.0, total);
+  return result;
+}
+
+void draw_gap_legend(Image& sheet, const Joint& joint, const Area& area) {
+  frame(sheet, area, "Gap [mesh units]");
+  const int bar_x = area.x + 170;
+  const Area bar{bar_x, area.y + 74, 30, area.height - 216};
+  draw_text(sheet, area.x + 12, bar.y - 16, "apart", {12, {8, 45, 112}});
+  draw_text(sheet, area.x + 12, bar.y + bar.height + 24, "overlapping", {12, {140, 10, 38}});
+  const std::vector<double> shares = histogram(joint, bar.height / 3);
+  const double most = std::max(1e-12, *std::max_element(shares.begin(), shares.end()));
+  const auto count = static_cast<int>(shares.size());
+  for (int k = 0; k < count; ++k) {
+    const int length = static_cast<int>(std::lround(shares[k] / most * (bar_x - area.x - 24)));
+    const int bottom = bar.y + bar.height - k * bar.height / count;
+    const int top = bar.y + bar.height - (k + 1) * bar.height / count;
+    fill(sheet, {bar_x - 4 - length, top, length, std::max(1, bottom - top - 1)}, {120, 126, 136});
+  }
+  draw_bar(sheet, bar, {gap_colour, -joint.reach, joint.reach, true, ""}, 12);
+  const int y = area.y + area.height - 92;
+  fill(sheet, {area.x + 14, y, 20, 14}, kNoContact);
+  draw_text(sheet, area.x + 42, y + 13, "no contact within " + short_number(joint.reach), {12, kInk});
+  draw_text(sheet, area.x + 14, y + 42, "median |gap|  " + short_number(joint.contact.gap_median),
+            {12, kInk});
+  draw_text(sheet, area.x + 14, y + 66, "90 % are below  " + short_number(joint.contact.gap_p90), {12, kInk});
+}
+
+void draw_lower_row(Image& sheet, const Joint& joint) {
+  const Area faces{kMargin, kLower, 1090, kLowerHeight};
+  draw_gap_views(sheet, joint, faces);
+  const Area legend{faces.x + faces.width + kGutter, kLower, 290, kLowerHeight};
+  draw_gap_legend(sheet, joint, legend);
+  const int left = legend.x + legend.width + kGutter;
+  const Area cut{left, kLower, kWidth - kMargin - left, kLowerHeight};
+  put(sheet, cut, "Cut through the joint", draw_section(joint, inside(cut).width, inside(cut).height));
+}
+
+struct VerdictLabel {
+  const char* text;
+  Colour colour;
+};
+
+VerdictLabel label_of(match::Verdict verdict) {
+  switch (verdict) {
+    case match::Verdict::Join:
+      return {"JOIN", {36, 128, 74}};
+    case match::Verdict::Unsure:
+      return {"UNSURE", {176, 116, 16}};
+    case match::Verdict::NoJoin:
+      break;
+  }
+  return {"NO JOIN", {166, 48, 48}};
+}
+
+void draw_header(Image& sheet, const Joint& joint, const SheetLabels& labels) {
+  const VerdictLabel verdict = label_of(labels.verdict);
+  const TextStyle big{22, Colour(255), Align::Middle, true};
+  const int chip = static_cast<int>(text_width(verdict.text, big)) + 40;
+  fill(sheet, {kMargin, 20, chip, 44}, verdict.colour);
+  draw_text(sheet, kMargin + chip / 2.0, 53, verdict.text, big);
+  const TextStyle score{20, kInk, Align::Left, true};
+  const std::string number = fmt::format("score {:.2f}", labels.candidate.score);
+  draw_text(sheet, kMargin + chip + 22, 52, number, score);
+  const double left = kMargin + chip + 22 + text_width(number, score) + 40;
+  const TextStyle name{18, kInk};
+  const double room = (kWidth - kMargin - left - 2 * 44 - 30) / 2;
+  const std::string a = fitted(labels.name_a, name, room);
+  fill(sheet, {static_cast<int>(left), 34, 18, 18}, kTintA);
+  draw_text(sheet, left + 28, 52, "A  " + a, name);
+  const double right = left + 28 + text_width("A  " + a, name) + 40;
+  fill(sheet, {static_cast<int>(right), 34, 18, 18}, kTintB);
+  draw_text(sheet, right + 28, 52, "B  " + fitted(labels.name_b, name, room), name);
+  const match::JointError& error = labels.candidate.error;
+  draw_text(
+      sheet, kMargin, 90,
+      fmt::format("gap median {}   overlap depth {}   contact area {}   slope error {} (ray cast {})   depth "
+                  "error {}   "
+                  "map overlap {:.0f} %   backend {}",
+                  short_number(joint.contact.gap_median), short_number(joint.contact.penetration),
+                  short_number(joint.contact.area), short_number(error.slope), short_number(error.raycast),
+                  short_number(error.depth), 100 * error.overlap, labels.backend),
+      {12.5, kFaint});
+}
+
+}  // namespace
+
+std::vector<Colour> gap_colours(const std::vector<float>& gaps, double reach) {
+  std::vector<Colour> result(gaps.size());
+  std::transform(gaps.begin(), gaps.end(), result.begin(),
+                 [&](float gap) { return gap_colour(gap / reach); });
+  return result;
+}
+
+Image draw_match_sheet(const Joint& joint, const SheetLabels& labels) {
+  Image sheet(kWidth, kHeight, kPaper);
+  draw_header(sheet, joint, labels);
+  draw_upper_row(sheet, joint);
+  draw_lower_row(sheet, joint);
+  return sheet;
+}
+
+}  // namespace rejoin::report

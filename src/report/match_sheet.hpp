@@ -1,0 +1,29 @@
+/// One picture that shows what a match found.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "match/match.hpp"
+#include "report/image.hpp"
+#include "report/joint.hpp"
+
+namespace rejoin::report {
+
+/// What is written above the panels.
+struct SheetLabels {
+  std::string name_a;
+  std::string name_b;
+  match::Verdict verdict = match::Verdict::NoJoin;
+  match::Candidate candidate;
+  std::string backend;  ///< "raster (AVX2)"
+};
+
+/// 2000 x 1300: the fragments opened, joined from three sides; the broken faces coloured by gap, how often each gap
+/// occurs, a cut through the joint.
+Image draw_match_sheet(const Joint& joint, const SheetLabels& labels);
+
+/// The colours of the gaps of one fragment's vertices; grey where there is no contact.
+std::vector<Colour> gap_colours(const std::vector<float>& gaps, double reach);
+
+}  // namespace rejoin::report
