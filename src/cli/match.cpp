@@ -14,6 +14,8 @@
 #include "cli/interrupt.hpp"
 #include "cli/match_json.hpp"
 #include "cli/match_options.hpp"
+#include "mesh/save.hpp"
+#include "report/match_pictures.hpp"
 
 namespace rejoin::cli {
 namespace {
@@ -82,10 +84,26 @@ class MatchCommand final : public Command {
     if (json_) write_file(*json_, match_json(a, b, options, result, seconds.count()));
     console.result(summary(result));
     if (json_) console.result(fmt::format("wrote {}\n", *json_));
+    if (out_) write_folder(console, a, b, result);
     return result.cancelled ? kInterrupted : kDone;
   }
 
  private:
+  /// An interrupted run gets the joined model only: pictures take longer than a user who wants to stop will wait.
+  void write_folder(Console& console, const match::Fragment& a, const match::Fragment& b,
+                    const match::Result& result) const {
+    const NothingToSave guard;
+    std::vector<std::filesystem::path> files;
+    if (!result.cancelled) {
+      files = report::write_match_outputs(*out_, a, b, result);
+    } else if (!result.candidates.empty()) {
+      files.emplace_back(std::filesystem::path(*out_) / "joined.ply");
+      mesh::save_scene(files[0],
+                       {{path_a_, &a.surface, Rigid{}}, {path_b_, &b.surface, result.candidates[0].pose}});
+    }
+    for (const std::filesystem::path& file : files) console.result(fmt::format("wrote {}\n", file.string()));
+  }
+
   static void tell_times(Console& console, const match::Result& result) {
     for (const auto& [stage, seconds] : result.stage_seconds) {
       console.detail(fmt::format("{:<12} {:8.2f} s", stage, seconds));

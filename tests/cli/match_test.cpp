@@ -128,6 +128,16 @@ TEST_F(MatchCommand, VerboseTellsStageTimesOnStderr) {
   EXPECT_EQ(finished.out.find("evaluations"), std::string::npos);
 }
 
+TEST_F(MatchCommand, OutHoldsTheModelsAndThePictures) {
+  const Finished finished = run(quick({"--out", folder / "deep/result"}));
+  EXPECT_EQ(finished.exit_code, 0);
+  for (const char* name : {"joined.glb", "joined.ply", "match.png", "depth_a.png", "depth_b.png",
+                           "depth_difference.png", "convergence.svg"}) {
+    EXPECT_FALSE(read_file(folder / ("deep/result/" + std::string(name))).empty()) << name;
+    EXPECT_NE(finished.out.find(name), std::string::npos) << name;
+  }
+}
+
 TEST_F(MatchCommand, FacetThatIsNotThereIsWrongUse) {
   const Finished finished = run({"match", a, b, "--facets-b", "0,999"});
   EXPECT_EQ(finished.exit_code, 2);
