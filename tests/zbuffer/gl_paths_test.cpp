@@ -54,10 +54,10 @@ void expect_same_pixels(const std::vector<PairScore>& a, const std::vector<PairS
 }
 
 TEST_P(GlPaths, ComputeDrawsThePixelsOfTheReference) {
-  const mesh::Mesh a = test::bumpy_sphere(4, 1);
-  const mesh::Mesh b = test::bumpy_sphere(3, 2);
+  const mesh::Mesh a = test::bumpy_sphere(3, 1);
+  const mesh::Mesh b = test::bumpy_sphere(2, 2);
   const ViewOptions options{.resolution = kResolution, .view_side = 2.9, .centre_a = {0.1F, 0, -0.2F}};
-  const auto poses = test::random_poses(20, 31);
+  const auto poses = test::random_poses(8, 31);
   const auto truth = score(*make_scorer(Backend::Reference, a, b, options), poses);
   expect_same_pixels(score(*scorer(Path::ComputeBuffer, a, b, options), poses), truth);
   expect_same_pixels(score(*scorer(Path::ComputeShared, a, b, options), poses), truth);

@@ -140,7 +140,8 @@ class ComputeDrawing : public Drawing {
     gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, kPoses, poses_.name());
     gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, kRecords, records_.name());
     gl.DispatchCompute(static_cast<GLuint>(std::min(groups_, poses.size())), 1, 1);
-    gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    // The maps are written again by the next dispatch, the records read by the CPU.
+    gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
   }
 
   std::string defines(bool in_shared_memory) const {
