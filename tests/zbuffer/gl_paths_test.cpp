@@ -199,6 +199,7 @@ TEST_P(GlPaths, ScorersInTwoThreadsTakeTurns) {
   const auto truth = score(*scorer(Path::Auto, a, a, {.resolution = kResolution}), poses);
   std::vector<std::vector<PairScore>> found(2);
   std::vector<std::thread> threads;
+  threads.reserve(found.size());
   for (std::vector<PairScore>& scores : found) {
     threads.emplace_back([&] {
       const auto mine = scorer(Path::Auto, a, a, {.resolution = kResolution});

@@ -51,8 +51,8 @@ class Engine {
 };
 
 /// The process's engine of a backend, made at the first call.  It lives until the process ends: drivers tear
-/// their own threads down at exit, in no defined order with ours. \throws BackendError  always the same one
-/// once it has failed
+/// their own threads down at exit, in no defined order with ours.
+/// \throws BackendError  always the same one once it has failed
 std::shared_ptr<Engine> shared_engine(Backend backend);
 
 }  // namespace rejoin::zbuffer::gl

@@ -12,14 +12,20 @@
 namespace rejoin::zbuffer::gl {
 
 /// A scorer on the backend's one context, which all scorers of the process share: they may live in several
-/// threads and take turns.  Coverage is that of the CPU rasteriser, pixel by pixel; depths differ by rounding
-/// (1e-6 of the view side). \pre backend is Gpu or OsMesa \throws BackendError  the library or a driver is
-/// missing, or too old \throws InputError    a mesh has no faces, or an option is out of range
+/// threads and take turns.
+///
+/// Poses are scored by a compute rasteriser that covers exactly the CPU rasteriser's pixels; depths differ by
+/// rounding (1e-6 of the view side).  What a driver cannot compute (with software: more than 512 pixels or
+/// 100,000 faces) the fixed pipeline draws, on the driver's own sub-pixel grid (1/256 pixel, mostly).
+/// \pre backend is Gpu or OsMesa
+/// \throws BackendError  the library or a driver is missing, or too old
+/// \throws InputError    a mesh has no faces, or an option is out of range
 std::unique_ptr<Scorer> make(Backend backend, const mesh::Mesh& a, const mesh::Mesh& b,
                              const ViewOptions& options);
 
-/// Whether the backend works here and what draws.  The first call makes the context (about 0.1 s); later ones
-/// cost nothing. \pre backend is Gpu or OsMesa
+/// Whether the backend works here and what draws.  The first call makes the context (about 0.1 s); later
+/// ones cost nothing.
+/// \pre backend is Gpu or OsMesa
 BackendInfo probe(Backend backend);
 
 /// Whether what draws is the CPU (llvmpipe and its like), so that a rasteriser of our own is the faster
