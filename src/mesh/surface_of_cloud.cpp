@@ -1,3 +1,4 @@
+#include "mesh/detail/fill_holes.hpp"
 #include "mesh/detail/local_delaunay.hpp"
 #include "mesh/detail/sheet.hpp"
 #include "mesh/surface.hpp"
@@ -8,6 +9,7 @@ Mesh surface_of_cloud(const Mesh& cloud) {
   const detail::Neighbourhoods around = detail::local_delaunay(cloud);
   detail::Sheet sheet(cloud.vertices, around.axes);
   for (const detail::Candidate& candidate : around.candidates) sheet.add(candidate.corners);
+  detail::fill_holes(cloud, around, sheet);
   Mesh mesh = cloud;
   mesh.faces = sheet.faces();
   return mesh;

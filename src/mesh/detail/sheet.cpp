@@ -83,16 +83,30 @@ bool Sheet::overlaps(const glm::uvec3& triangle, int corner) const {
   return false;
 }
 
-bool Sheet::add(const glm::uvec3& triangle) {
+bool Sheet::fits(const glm::uvec3& triangle) const {
   for (int k = 0; k < 3; ++k) {
     if (has_edge(triangle[k], triangle[(k + 1) % 3])) return false;
   }
-  if (folds(triangle)) return false;
+  return !folds(triangle);
+}
+
+void Sheet::insert(const glm::uvec3& triangle) {
+  for (int k = 0; k < 3; ++k) around_[triangle[k]].push_back(static_cast<std::uint32_t>(faces_.size()));
+  faces_.push_back(triangle);
+}
+
+bool Sheet::add(const glm::uvec3& triangle) {
+  if (!fits(triangle)) return false;
   for (int k = 0; k < 3; ++k) {
     if (overlaps(triangle, k)) return false;
   }
-  for (int k = 0; k < 3; ++k) around_[triangle[k]].push_back(static_cast<std::uint32_t>(faces_.size()));
-  faces_.push_back(triangle);
+  insert(triangle);
+  return true;
+}
+
+bool Sheet::close(const glm::uvec3& triangle) {
+  if (!fits(triangle)) return false;
+  insert(triangle);
   return true;
 }
 

@@ -19,16 +19,21 @@ class Sheet {
   /// Adds the triangle if it fits; says whether it did.
   bool add(const glm::uvec3& triangle);
 
+  /// Adds a triangle that closes a gap between faces: may overlap a little, where overlaps kept the gap open.
+  bool close(const glm::uvec3& triangle);
+
   /// Whether a face has the edge in this direction.
   bool has_edge(std::uint32_t from, std::uint32_t to) const;
 
-  /// Points that follow `from` along boundary edges (edges with no face on their other side), each walked
-  /// against its face's sense: as the face beyond it would run.
+  /// Where the boundary goes on from a point: ends of edges that have a face on one side only, in the direction that a face on
+  /// the other side would have.
   void open_edges(std::uint32_t from, std::vector<std::uint32_t>& ends) const;
 
   const std::vector<glm::uvec3>& faces() const { return faces_; }
 
  private:
+  bool fits(const glm::uvec3& triangle) const;
+  void insert(const glm::uvec3& triangle);
   bool folds(const glm::uvec3& triangle) const;
   bool overlaps(const glm::uvec3& triangle, int corner) const;
   glm::vec3 cross_of(const glm::uvec3& triangle) const;

@@ -1,0 +1,220 @@
+// What loading mends, and what it leaves alone.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/random.hpp"
+#include "mesh/load.hpp"
+#include "mesh/save.hpp"
+#include "shapes.hpp"
+
+namespace rejoin::mesh {
+namespace {
+
+using test::TemporaryFolder;
+
+const std::string kPlyHeader = "ply\nformat ascii 1.0\n";
+
+std::string vertices(std::size_t count, const std::string& more = "") {
+  return "element vertex " + std::to_string(count) +
+         "\nproperty double x\nproperty double y\nproperty double z\n" + more;
+}
+
+std::string faces(std::size_t count) {
+  return "element face " + std::to_string(count) + "\nproperty list uchar int vertex_indices\nend_header\n";
+}
+
+Loaded load_text(const std::string& name, const std::string& text) {
+  const TemporaryFolder folder;
+  return load(folder.write(name, text));
+}
+
+Loaded through_ply(const Mesh& mesh) {
+  const TemporaryFolder folder;
+  save(folder / "a.ply", mesh);
+  return load(folder / "a.ply");
+}
+
+TEST(Clean, WeldsExactlyEqualVerticesOnlyWhateverTheScale) {
+  // Two triangles that meet in two places, and one a millionth of its size away from them.
+  for (const double scale : {1e-6, 1.0, 1e6}) {
+    SCOPED_TRACE(scale);
+    std::string text = kPlyHeader + vertices(9) + faces(3);
+    for (const double x : {0.0, 1.0, 0.0, 1.0, 0.0, 1.0, 1.0 + 1e-6, 2.0, 2.0}) {
+      const std::size_t i = static_cast<std::size_t>(std::count(text.begin(), text.end(), '@'));
+      const double y[9] = {0, 0, 1, 0, 1, 1, 0, 0, 1};
+      text += std::to_string(x * scale * 1e6) + "e-6 " + std::to_string(y[i] * scale * 1e6) + "e-6 0@";
+    }
+    std::replace(text.begin(), text.end(), '@', '\n');
+    const Loaded loaded = load_text("a.ply", text + "3 0 1 2\n3 3 5 4\n3 6 7 8\n");
+    EXPECT_EQ(loaded.mesh.vertices.size(), 7U);
+    EXPECT_EQ(loaded.mesh.faces.size(), 3U);
+  }
+}
+
+TEST(Clean, DropsDegenerateAndDuplicateFacesAndSaysSo) {
+  const Loaded loaded = load_text("a.ply", kPlyHeader + vertices(6) + faces(5) +
+                                               "0 0 0\n1 0 0\n0 1 0\n2 0 0\n5 5 5\n0 0 1\n"
+                                               "3 0 1 2\n3 1 2 0\n3 0 1 1\n3 0 1 3\n3 1 0 5\n");
+  EXPECT_EQ(loaded.mesh.faces.size(), 2U);
+  EXPECT_EQ(loaded.mesh.vertices.size(), 4U);  // neither the one on the line nor the one of no face
+  ASSERT_EQ(loaded.warnings.size(), 2U);
+  EXPECT_NE(loaded.warnings[0].find("dropped 2 of 5 faces that have no area"), std::string::npos);
+  EXPECT_NE(loaded.warnings[1].find("dropped 1 of 5 faces that are there twice"), std::string::npos);
+}
+
+TEST(Clean, LoadsASingleTriangle) {
+  const Loaded loaded = load_text("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(loaded.mesh.faces.size(), 1U);
+  EXPECT_TRUE(loaded.warnings.empty());
+}
+
+TEST(Clean, TurnsFacesThatAreWoundAgainstTheirNeighbours) {
+  const Mesh sphere = test::icosphere(1, 3);
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    Mesh mixed = sphere;
+    std::size_t turned = 0;
+    for (glm::uvec3& face : mixed.faces) {
+      if (random.uniform() > 0.3) continue;
+      std::swap(face.y, face.z);
+      ++turned;
+    }
+    const Loaded loaded = through_ply(mixed);
+    EXPECT_EQ(test::count_edges(loaded.mesh).against, 0U);
+    EXPECT_NEAR(test::volume(loaded.mesh), test::volume(sphere), 1e-5);
+    ASSERT_EQ(loaded.warnings.size(), 1U);
+    EXPECT_NE(loaded.warnings[0].find("turned " + std::to_string(turned) + " of 1280"), std::string::npos);
+  }
+}
+
+TEST(Clean, TurnsAClosedSurfaceThatIsInsideOut) {
+  Mesh sphere = test::icosphere(1, 2);
+  sphere.origin = {100, 0, 0};
+  for (glm::uvec3& face : sphere.faces) std::swap(face.y, face.z);
+  const Loaded loaded = through_ply(sphere);
+  EXPECT_GT(test::volume(loaded.mesh), 3.5);
+  ASSERT_EQ(loaded.warnings.size(), 1U);
+  EXPECT_NE(loaded.warnings[0].find("inside out"), std::string::npos);
+}
+
+TEST(Clean, KeepsTheWindingOfACavityAndOfAnOpenSurface) {
+  Mesh hollow = test::icosphere(2, 2);
+  Mesh hole = test::icosphere(1, 2);
+  const auto first = static_cast<std::uint32_t>(hollow.vertices.size());
+  for (const glm::uvec3& face : hole.faces)
+    hollow.faces.push_back(glm::uvec3(face.x, face.z, face.y) + first);
+  hollow.vertices.insert(hollow.vertices.end(), hole.vertices.begin(), hole.vertices.end());
+  const double before = test::volume(hollow);
+  EXPECT_NEAR(test::volume(through_ply(hollow).mesh), before, 1e-4);
+
+  Mesh open = test::icosphere(1, 2);
+  for (glm::uvec3& face : open.faces) std::swap(face.y, face.z);
+  open.faces.pop_back();
+  const Loaded loaded = through_ply(open);
+  EXPECT_LT(test::volume(loaded.mesh), 0);
+  EXPECT_TRUE(loaded.warnings.empty());
+}
+
+TEST(Clean, LeavesAMoebiusStripAlone) {
+  constexpr int kSteps = 40;
+  Mesh strip;
+  for (int i = 0; i < kSteps; ++i) {
+    const double turn = 2 * 3.141592653589793 * i / kSteps;
+    for (const double side : {-0.3, 0.3}) {
+      const double radius = 1 + side * std::cos(turn / 2);
+      strip.vertices.emplace_back(radius * std::cos(turn), radius * std::sin(turn),
+                                  side * std::sin(turn / 2));
+    }
+  }
+  for (std::uint32_t i = 0; i < kSteps; ++i) {
+    const std::uint32_t a = 2 * i;
+    const bool last = i + 1 == kSteps;
+    const std::uint32_t c = last ? 1 : a + 2;
+    const std::uint32_t d = last ? 0 : a + 3;
+    strip.faces.emplace_back(a, c, a + 1);
+    strip.faces.emplace_back(a + 1, c, d);
+  }
+  const Loaded loaded = through_ply(strip);
+  EXPECT_EQ(loaded.mesh.faces.size(), strip.faces.size());
+  EXPECT_TRUE(loaded.warnings.empty());
+}
+
+TEST(Clean, MakesNormalsOfACloudUnitLength) {
+  Mesh cloud = test::sphere_cloud(1, 0.3F, 2);
+  for (std::size_t i = 0; i < cloud.normals.size(); ++i)
+    cloud.normals[i] *= 0.01F + 10.0F * static_cast<float>(i);
+  const Loaded loaded = through_ply(cloud);
+  EXPECT_TRUE(loaded.warnings.empty());
+  for (std::size_t i = 0; i < loaded.mesh.normals.size(); ++i) {
+    EXPECT_NEAR(glm::dot(loaded.mesh.normals[i], loaded.mesh.vertices[i]), 1, 1e-5);
+  }
+}
+
+TEST(Clean, DropsPointsWithoutAUsableNormal) {
+  Mesh cloud = test::sphere_cloud(1, 0.3F, 3);
+  cloud.normals[5] = glm::vec3(0.0F);
+  cloud.normals[7] = glm::vec3(NAN, 0, 1);
+  const Loaded loaded = through_ply(cloud);
+  EXPECT_EQ(loaded.mesh.vertices.size(), cloud.vertices.size() - 2);
+  ASSERT_EQ(loaded.warnings.size(), 1U);
+  EXPECT_NE(loaded.warnings[0].find("dropped 2 of"), std::string::npos);
+}
+
+TEST(Clean, EstimatesMissingNormalsOutwardsWithAWarning) {
+  // A sphere and, apart from it, a box with sharp edges.
+  Mesh cloud = test::sphere_cloud(1, 0.08F, 4);
+  Mesh box = test::box_cloud({2, 1, 0.6F}, 0.05F, 5);
+  for (glm::vec3& vertex : box.vertices) vertex += glm::vec3(5, 0, 0);
+  cloud.vertices.insert(cloud.vertices.end(), box.vertices.begin(), box.vertices.end());
+  const std::vector<glm::vec3> truth = [&] {
+    std::vector<glm::vec3> normals = cloud.normals;
+    normals.insert(normals.end(), box.normals.begin(), box.normals.end());
+    return normals;
+  }();
+  cloud.normals.clear();
+  const Loaded loaded = through_ply(cloud);
+  ASSERT_EQ(loaded.warnings.size(), 1U);
+  EXPECT_NE(loaded.warnings[0].find("no normals"), std::string::npos);
+  ASSERT_EQ(loaded.mesh.normals.size(), truth.size());
+  std::size_t close = 0;
+  std::size_t inwards = 0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const float cosine = glm::dot(loaded.mesh.normals[i], truth[i]);
+    EXPECT_NEAR(glm::length(loaded.mesh.normals[i]), 1, 1e-4);
+    if (cosine > 0.9F) ++close;
+    if (cosine < 0) ++inwards;
+  }
+  // Points whose neighbourhood folds round an edge of the box get a slanted normal.
+  EXPECT_GT(close, truth.size() * 8 / 10);
+  EXPECT_EQ(inwards, 0U);
+}
+
+TEST(Clean, KeepsPrecisionFarFromTheOrigin) {
+  // A scan of 10 cm in metres at national grid coordinates, in doubles: floats alone would leave steps of 0.5 m.
+  std::string text = kPlyHeader + vertices(4) + faces(2);
+  text += "4500000.00001 5400000.00002 123.4\n4500000.10001 5400000.00002 123.4\n";
+  text += "4500000.10001 5400000.10002 123.4\n4500000.00001 5400000.10002 123.40005\n3 0 1 2\n3 0 2 3\n";
+  const Mesh mesh = load_text("a.ply", text).mesh;
+  const double x[4] = {4500000.00001, 4500000.10001, 4500000.10001, 4500000.00001};
+  const double z[4] = {123.4, 123.4, 123.4, 123.40005};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const glm::dvec3 point = mesh.origin + glm::dvec3(mesh.vertices[i]);
+    EXPECT_NEAR(point.x, x[i], 1e-8);
+    EXPECT_NEAR(point.z, z[i], 1e-8);
+  }
+  EXPECT_NEAR(diameter(mesh), 0.1 * std::sqrt(2.0), 1e-6);
+}
+
+TEST(Clean, KeepsFloatsNearTheOriginAsTheyAre) {
+  Mesh sphere = test::icosphere(1, 2);
+  for (glm::vec3& vertex : sphere.vertices) vertex += glm::vec3(1.1F, 0.3F, 0.7F);
+  const Mesh loaded = through_ply(sphere).mesh;
+  EXPECT_EQ(loaded.origin, glm::dvec3(0.0));
+  EXPECT_EQ(loaded.vertices, sphere.vertices);
+}
+
+}  // namespace
+}  // namespace rejoin::mesh
