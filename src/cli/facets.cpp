@@ -2,12 +2,12 @@
 #include <fmt/core.h>
 
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "cli/command.hpp"
 #include "cli/files.hpp"
 #include "cli/fragment.hpp"
+#include "cli/json_values.hpp"
 #include "mesh/facets.hpp"
 #include "mesh/save.hpp"
 
@@ -67,11 +67,7 @@ std::string table(const mesh::Segmentation& facets) {
   return text;
 }
 
-ordered_json triple(const glm::dvec3& v) {
-  return {v.x, v.y, v.z};
-}
-
-std::string to_json(const match::Fragment& fragment) {
+std::string facets_json(const match::Fragment& fragment) {
   ordered_json list = ordered_json::array();
   for (const mesh::Facet& facet : fragment.facets.facets) {
     list.push_back({{"number", list.size()},
@@ -80,9 +76,9 @@ std::string to_json(const match::Fragment& fragment) {
                     {"length", facet.length},
                     {"width", facet.width},
                     {"roughness", facet.roughness},
-                    {"direction", triple(facet.normal)},
-                    {"along", triple(facet.along)},
-                    {"centre", triple(fragment.surface.origin + facet.centre)}});
+                    {"direction", to_json(facet.normal)},
+                    {"along", to_json(facet.along)},
+                    {"centre", to_json(fragment.surface.origin + facet.centre)}});
   }
   const ordered_json json = {{"schema", "rejoin.facets/1"},
                              {"path", fragment.path},
@@ -117,7 +113,7 @@ class FacetsCommand final : public Command {
                                    : std::string("solid")));
     console.result(table(fragment.facets));
     if (ply_) mesh::save(*ply_, coloured(fragment.surface, fragment.facets));
-    if (json_) write_file(*json_, to_json(fragment));
+    if (json_) write_file(*json_, facets_json(fragment));
     return kDone;
   }
 

@@ -45,7 +45,9 @@ std::string measured(double value) {
 }
 
 std::string summary(const match::Result& result) {
-  if (result.candidates.empty()) return fmt::format("{}: no pose was found\n", name_of(result.verdict));
+  if (result.candidates.empty()) {
+    return result.cancelled ? "interrupted before a pose was found\n" : "no join, no pose was found\n";
+  }
   const match::Candidate& best = result.candidates.front();
   const match::JointError& error = best.error;
   return fmt::format("{}, score {:.3f}\n", name_of(result.verdict), best.score) + pose_text(best.pose) +
@@ -79,6 +81,7 @@ class MatchCommand final : public Command {
     const match::Result result = match::match(a, b, options, context);
     console.end_progress();
     for (const std::string& warning : result.warnings) console.warning(warning);
+    if (result.cancelled) console.warning("interrupted; what follows is the best so far");
     tell_times(console, result);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     if (json_) write_file(*json_, match_json(a, b, options, result, seconds.count()));

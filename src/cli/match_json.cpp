@@ -1,7 +1,6 @@
 #include "cli/match_json.hpp"
 
-#include <nlohmann/json.hpp>
-
+#include "cli/json_values.hpp"
 #include "core/version.hpp"
 
 namespace rejoin::cli {
@@ -9,24 +8,10 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json triple(const glm::dvec3& v) {
-  return {v.x, v.y, v.z};
-}
-
 ordered_json triples(const std::vector<glm::dvec3>& list) {
   ordered_json json = ordered_json::array();
-  for (const glm::dvec3& v : list) json.push_back(triple(v));
+  for (const glm::dvec3& v : list) json.push_back(to_json(v));
   return json;
-}
-
-ordered_json matrix(const Rigid& pose) {
-  ordered_json rows = ordered_json::array();
-  for (int row = 0; row < 3; ++row) {
-    rows.push_back(
-        {pose.rotation[0][row], pose.rotation[1][row], pose.rotation[2][row], pose.translation[row]});
-  }
-  rows.push_back({0.0, 0.0, 0.0, 1.0});
-  return rows;
 }
 
 /// Infinite values (not measured) become null, as JSON has no infinity.
@@ -52,8 +37,8 @@ ordered_json search_json(const match::Options& options, const match::Result& res
           {"directions_a", triples(options.directions_a)},
           {"directions_b", triples(options.directions_b)},
           {"tolerance_deg", options.tolerance_deg},
-          {"material_a", options.material_a ? triple(*options.material_a) : ordered_json()},
-          {"material_b", options.material_b ? triple(*options.material_b) : ordered_json()},
+          {"material_a", options.material_a ? to_json(*options.material_a) : ordered_json()},
+          {"material_b", options.material_b ? to_json(*options.material_b) : ordered_json()},
           {"facets_a", options.facets_a},
           {"facets_b", options.facets_b},
           {"resolution", options.resolution},
@@ -82,7 +67,7 @@ std::string match_json(const match::Fragment& a, const match::Fragment& b, const
                        const match::Result& result, double seconds) {
   ordered_json candidates = ordered_json::array();
   for (const match::Candidate& candidate : result.candidates) {
-    candidates.push_back({{"pose", matrix(candidate.pose)},
+    candidates.push_back({{"pose", to_json(candidate.pose)},
                           {"score", candidate.score},
                           {"facet_a", candidate.facet_a},
                           {"facet_b", candidate.facet_b},
