@@ -131,23 +131,20 @@ GapField::GapField(const mesh::Mesh& surface)
   corner_normals_ = angle_weighted_normals(surface, face_normals_);
 }
 
-glm::vec3 GapField::normal_at(const mesh::RayScene::Hit& hit) const {
-  constexpr float kInside = 1e-4F;  // of the triangle; nearer to its border the neighbours have a say
-  const glm::uvec3 face = surface_->faces[hit.face];
-  const glm::vec3 weight = barycentric(hit.point, surface_->vertices[face.x], surface_->vertices[face.y],
-                                       surface_->vertices[face.z]);
-  const bool inside = std::min({weight.x, weight.y, weight.z}) > kInside;
-  if (inside && face_normals_[hit.face] != glm::vec3(0.0F)) return face_normals_[hit.face];
-  return unit_or_zero(weight.x * corner_normals_[face.x] + weight.y * corner_normals_[face.y] +
-                      weight.z * corner_normals_[face.z]);
-}
-
 std::optional<GapField::Sample> GapField::at(const glm::vec3& point, float max_distance) const {
+  constexpr float kInside = 1e-4F;  // of the triangle; nearer to its border the neighbours have a say
   const auto hit = scene_.nearest(point, max_distance);
   if (!hit) return std::nullopt;
-  const glm::vec3 normal = normal_at(*hit);
-  const bool inside = glm::dot(point - hit->point, normal) < 0;
-  return Sample{inside ? -hit->distance : hit->distance, normal, hit->face};
+  const glm::uvec3 face = surface_->faces[hit->face];
+  const glm::vec3 weight = barycentric(hit->point, surface_->vertices[face.x], surface_->vertices[face.y],
+                                       surface_->vertices[face.z]);
+  const glm::vec3 smooth =
+      unit_or_zero(weight.x * corner_normals_[face.x] + weight.y * corner_normals_[face.y] +
+                   weight.z * corner_normals_[face.z]);
+  const glm::vec3 flat = face_normals_[hit->face];
+  const bool within = std::min({weight.x, weight.y, weight.z}) > kInside && flat != glm::vec3(0.0F);
+  const bool inside = glm::dot(point - hit->point, within ? flat : smooth) < 0;
+  return Sample{inside ? -hit->distance : hit->distance, smooth, hit->face};
 }
 
 Gaps gaps(const mesh::Mesh& a, const GapField& b, const Rigid& b_to_a, double max_distance) {

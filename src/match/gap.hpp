@@ -21,7 +21,7 @@ class GapField {
 
   struct Sample {
     float gap;           ///< mesh units; above 0 outside the surface, below 0 inside it
-    glm::vec3 normal;    ///< outwards at the nearest point, unit (0 where the surface has no area)
+    glm::vec3 normal;    ///< outwards at the nearest point, smooth over the faces, unit (0 without area)
     std::uint32_t face;  ///< that holds the nearest point
   };
 
@@ -39,8 +39,6 @@ class GapField {
   const mesh::Mesh& surface() const { return *surface_; }
 
  private:
-  glm::vec3 normal_at(const mesh::RayScene::Hit& hit) const;
-
   const mesh::Mesh* surface_;
   mesh::RayScene scene_;
   std::vector<glm::vec3> corner_normals_;  ///< angle-weighted, one a vertex

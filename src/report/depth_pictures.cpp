@@ -10,19 +10,46 @@ namespace {
 constexpr Colour kNothing{232, 233, 236};
 constexpr int kHead = 64;
 constexpr int kMargin = 16;
-constexpr int kLegend = 150;
+constexpr int kLegend = 130;
+constexpr int kPictureSide = 900;  ///< the larger side of an enlarged map, at most
+constexpr int kLeastWidth = 560;   ///< room for the labels
+constexpr int kLeastHeight = 220;  ///< room for the colour bar
 
 }  // namespace
 
+MapWindow covered_window(const std::vector<const zbuffer::DepthMap*>& maps, int margin) {
+  const int width = maps.front()->width;
+  const int height = maps.front()->height;
+  int left = width, right = -1, low = height, high = -1;
+  for (const zbuffer::DepthMap* map : maps) {
+    for (int j = 0; j < height; ++j) {
+      for (int i = 0; i < width; ++i) {
+        if (std::isnan(map->at(i, j))) continue;
+        left = std::min(left, i);
+        right = std::max(right, i);
+        low = std::min(low, j);
+        high = std::max(high, j);
+      }
+    }
+  }
+  if (right < 0) return {0, 0, width, height};
+  left = std::max(0, left - margin);
+  low = std::max(0, low - margin);
+  return {left, low, std::min(width, right + 1 + margin) - left, std::min(height, high + 1 + margin) - low};
+}
+
 Image draw_map(const zbuffer::DepthMap& map, const MapPicture& style) {
-  const int width = map.width * style.zoom;
-  const int height = map.height * style.zoom;
-  Image image(width + 2 * kMargin + kLegend, height + kHead + kMargin, kPaper);
+  const MapWindow window = style.window.width > 0 ? style.window : MapWindow{0, 0, map.width, map.height};
+  const int zoom = std::max(1, std::min(kPictureSide / window.width, kPictureSide / window.height));
+  const int width = window.width * zoom;
+  const int height = window.height * zoom;
+  const int frame = std::max(height, kLeastHeight);
+  Image image(std::max(width, kLeastWidth) + 2 * kMargin + kLegend, frame + kHead + kMargin, kPaper);
   const double centre = style.bar.diverging ? 0.0 : style.bar.low;
   const double range = style.bar.high - centre;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const float value = map.at(x / style.zoom, map.height - 1 - y / style.zoom);
+      const float value = map.at(window.x + x / zoom, window.y + window.height - 1 - y / zoom);
       image.at(kMargin + x, kHead + y) =
           std::isnan(value) ? kNothing : style.bar.colour((value - centre) / range);
     }
@@ -31,10 +58,10 @@ Image draw_map(const zbuffer::DepthMap& map, const MapPicture& style) {
   const TextStyle title{15, kInk, Align::Left, true};
   draw_text(image, kMargin, 28, fitted(style.title, title, image.width - 2 * kMargin), title);
   const TextStyle note{11, kFaint};
-  draw_text(image, kMargin, 50, fitted(style.note, note, width), note);
+  draw_text(image, kMargin, 50, fitted(style.note, note, image.width - 2 * kMargin), note);
   ColourBar bar = style.bar;
   bar.title = style.unit;
-  draw_bar(image, {width + 2 * kMargin, kHead + 24, 22, std::min(height - 48, 420)}, bar, 11);
+  draw_bar(image, {image.width - kLegend, kHead + 24, 22, std::min(frame - 36, 420)}, bar, 11);
   return image;
 }
 

@@ -2,11 +2,24 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "report/colour_scale.hpp"
 #include "zbuffer/depth_map.hpp"
 
 namespace rejoin::report {
+
+/// The part of a map that is shown, map pixels.
+struct MapWindow {
+  int x = 0;
+  int y = 0;
+  int width = 0;
+  int height = 0;
+};
+
+/// The box of all covered pixels of the maps (of equal shape) with `margin` pixels around it; the whole map if nothing is covered.
+MapWindow covered_window(const std::vector<const zbuffer::DepthMap*>& maps, int margin);
 
 /// How a map is coloured and labelled.
 struct MapPicture {
@@ -14,10 +27,10 @@ struct MapPicture {
   std::string note;  ///< second line
   std::string unit;  ///< above the colour bar
   ColourBar bar;     ///< bar.title is taken from `unit`
-  int zoom = 3;      ///< picture pixels a map pixel
+  MapWindow window;  ///< width 0: the whole map
 };
 
-/// The map with v upwards, a colour bar and the labels.  Background stays pale.
+/// The map, enlarged to about 900 pixels, with v upwards, a colour bar and the labels.  Background stays pale.
 Image draw_map(const zbuffer::DepthMap& map, const MapPicture& style);
 
 /// Smallest and largest depth but for `tail` of the covered pixels at each end; (0, 1) if nothing is covered.

@@ -74,7 +74,7 @@ void find_axes(Joint& joint) {
 
 Joint make_joint(const mesh::Mesh& a, const mesh::Mesh& b, const Rigid& pose, const glm::dvec3& direction,
                  double resolution) {
-  Joint joint{for_pictures(a), for_pictures(b), pose, {}, {}, 0, {}, {}, {}, {}, {}, 0, 0};
+  Joint joint{for_pictures(a), for_pictures(b), pose, {}, {}, 0, 0, {}, {}, {}, {}, {}, 0, 0};
   const match::GapField field_a(joint.a);
   const match::GapField field_b(joint.b);
   const double farthest = kFarthest * std::max(mesh::diameter(joint.a), mesh::diameter(joint.b));
@@ -87,6 +87,8 @@ Joint make_joint(const mesh::Mesh& a, const mesh::Mesh& b, const Rigid& pose, co
     if (std::isnan(joint.gap_a[i])) gaps_a.facing[i] = std::numeric_limits<float>::quiet_NaN();
   }
   joint.contact = match::contact_of(joint.a, gaps_a);
+  const double finest = std::max(1e-3 * joint.reach, 0.05 * resolution);
+  joint.scale = std::min(joint.reach, round_up(std::max(3 * joint.contact.gap_p90, finest)));
   const glm::dvec3 centre_a = joint.a.origin + mesh::centroid(joint.a);
   const glm::dvec3 centre_b = pose(joint.b.origin + mesh::centroid(joint.b));
   const glm::dvec3 fallback = unit_or(direction, unit_or(centre_b - centre_a, {0, 0, 1}));

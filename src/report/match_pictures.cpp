@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "match/pose_space.hpp"
@@ -36,53 +38,91 @@ glm::dvec3 view_direction(const match::Candidate& candidate) {
   return glm::transpose(turn) * glm::dvec3(0, 0, 1);
 }
 
-void draw_height_map(const std::filesystem::path& path, const zbuffer::DepthMap& map,
-                     const std::string& title) {
-  const auto [near, far] = robust_range(map, 0.005);
-  MapPicture style;
-  style.title = title;
-  style.note = fmt::format("height above the depth {} from the reference plane", short_number(far));
-  style.unit = "[mesh units]";
-  style.bar = {even_colour, 0, far > near ? far - near : 1, false, ""};
-  write_png(path, draw_map(heights(map, far), style));
+/// The view turned about Z so that the joint's long axis lies level; B's frame turns the other way, as it faces A.
+zbuffer::ViewPair levelled(const zbuffer::ViewPair& view, const glm::dvec3& along) {
+  const glm::dvec3 seen = glm::dmat3(view.rotation_a) * along;
+  const double angle = -std::atan2(seen.y, seen.x);
+  const glm::dmat3 turn = axis_rotation({0, 0, 1}, angle);
+  zbuffer::ViewPair result = view;
+  result.rotation_a = glm::mat3(turn * glm::dmat3(view.rotation_a));
+  result.rotation_b = glm::mat3(glm::transpose(turn) * glm::dmat3(view.rotation_b));
+  result.shift_a = glm::vec2(glm::dvec2(turn * glm::dvec3(view.shift_a, 0.0)));
+  return result;
 }
 
-void draw_difference(const std::filesystem::path& path, const zbuffer::DepthMap& a,
-                     const zbuffer::DepthMap& b, double view_side) {
-  const zbuffer::DepthMap difference = zbuffer::slope_difference_map(a, b, view_side);
-  const zbuffer::PairScore score = zbuffer::slope_difference(a, b, view_side);
+/// Both maps of the joint, in A's frame, and where their slopes differ.
+struct JointMaps {
+  zbuffer::DepthMap a;
+  zbuffer::DepthMap b;  ///< mirrored into A's frame
+  zbuffer::DepthMap difference;
+  zbuffer::PairScore score;
+};
+
+JointMaps make_maps(const Joint& joint, int resolution) {
+  zbuffer::ViewOptions options;
+  options.resolution = resolution;
+  options.view_side = 1.3 * std::max(mesh::diameter(joint.a), mesh::diameter(joint.b));
+  options.centre_a = match::view_centre(joint.a);
+  options.centre_b = match::view_centre(joint.b);
+  const match::ViewCentres centres{joint.a.origin + glm::dvec3(options.centre_a),
+                                   joint.b.origin + glm::dvec3(options.centre_b)};
+  const match::FacingView facing = match::facing_view(joint.pose, joint.normal, centres);
+  const auto scorer = zbuffer::make_scorer(zbuffer::Backend::Raster, joint.a, joint.b, options);
+  const auto [a, b] = scorer->depth_maps(levelled(facing.view, joint.along));
+  return {a, zbuffer::mirrored(b), zbuffer::slope_difference_map(a, b, options.view_side),
+          zbuffer::slope_difference(a, b, options.view_side)};
+}
+
+/// Depths where both maps are covered, so that the colours show the relief of the joint; the whole map's otherwise.
+zbuffer::DepthMap within_joint(const zbuffer::DepthMap& map, const zbuffer::DepthMap& difference) {
+  zbuffer::DepthMap result = map;
+  bool any = false;
+  for (std::size_t k = 0; k < map.depth.size(); ++k) {
+    any = any || !std::isnan(difference.depth[k]);
+    if (std::isnan(difference.depth[k])) result.depth[k] = zbuffer::kBackground;
+  }
+  return any ? result : map;
+}
+
+Image draw_heights(const zbuffer::DepthMap& map, const JointMaps& maps, const MapWindow& window,
+                   const std::string& title) {
+  const auto [near, far] = robust_range(within_joint(map, maps.difference), 0.02);
   MapPicture style;
-  style.title = "Slope difference at the joint";
+  style.title = title;
   style.note =
-      score.overlap == 0
-          ? "the two maps do not overlap"
-          : fmt::format("mean {} over {} pixels; as a share of the view a pixel step: {}",
-                        short_number(score.error * a.width), score.overlap, short_number(score.error));
+      fmt::format("height above the lowest 2 % of the joint; {} pixels across the whole view", map.width);
+  style.unit = "[mesh units]";
+  style.bar = {even_colour, 0, far > near ? static_cast<double>(far) - near : 1, false, ""};
+  style.window = window;
+  return draw_map(heights(map, far), style);
+}
+
+Image draw_difference(const JointMaps& maps, const MapWindow& window) {
+  MapPicture style;
+  style.title = "Slope difference of A and B";
+  style.note = maps.score.overlap == 0
+                   ? "the two maps do not overlap"
+                   : fmt::format("mean slope {} over {} pixels; depth error {} of the view a pixel step",
+                                 short_number(static_cast<double>(maps.score.error) * maps.a.width),
+                                 maps.score.overlap, short_number(maps.score.error));
   style.unit = "[slope]";
-  style.bar = {difference_colour, 0, round_up(std::max(1e-6, robust_range(difference, 0.05).second)), false,
-               ""};
-  write_png(path, draw_map(difference, style));
+  const double high = robust_range(maps.difference, 0.05).second;
+  style.bar = {difference_colour, 0, round_up(std::max(1e-6, high)), false, ""};
+  style.window = window;
+  return draw_map(maps.difference, style);
 }
 
 /// \return the three files
 std::vector<std::filesystem::path> write_depth_maps(const std::filesystem::path& folder, const Joint& joint,
                                                     const std::string& name_a, const std::string& name_b,
                                                     int resolution) {
-  zbuffer::ViewOptions view;
-  view.resolution = resolution;
-  view.view_side = 1.3 * std::max(mesh::diameter(joint.a), mesh::diameter(joint.b));
-  view.centre_a = match::view_centre(joint.a);
-  view.centre_b = match::view_centre(joint.b);
-  const match::ViewCentres centres{joint.a.origin + glm::dvec3(view.centre_a),
-                                   joint.b.origin + glm::dvec3(view.centre_b)};
-  const match::FacingView facing = match::facing_view(joint.pose, joint.normal, centres);
-  const auto scorer = zbuffer::make_scorer(zbuffer::Backend::Raster, joint.a, joint.b, view);
-  const auto [map_a, map_b] = scorer->depth_maps(facing.view);
+  const JointMaps maps = make_maps(joint, resolution);
+  const MapWindow window = covered_window({&maps.a, &maps.b}, 4);
   const std::vector<std::filesystem::path> files{folder / "depth_a.png", folder / "depth_b.png",
                                                  folder / "depth_difference.png"};
-  draw_height_map(files[0], map_a, "A  " + name_a + ", seen from B");
-  draw_height_map(files[1], zbuffer::mirrored(map_b), "B  " + name_b + ", seen from A, mirrored");
-  draw_difference(files[2], map_a, map_b, view.view_side);
+  write_png(files[0], draw_heights(maps.a, maps, window, "A  " + name_a + ", seen from B"));
+  write_png(files[1], draw_heights(maps.b, maps, window, "B  " + name_b + ", seen from A, mirrored"));
+  write_png(files[2], draw_difference(maps, window));
   return files;
 }
 

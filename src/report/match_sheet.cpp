@@ -59,7 +59,7 @@ void draw_upper_row(Image& sheet, const Joint& joint) {
   const std::vector<Body> joined = joined_bodies(joint);
   const Scene scene(joined);
   const JointViews views = choose_views(joint, scene);
-  const Area apart{kMargin, kUpper, 690, kUpperHeight};
+  const Area apart{kMargin, kUpper, 680, kUpperHeight};
   const glm::dvec3 up = up_for(joint, views.across);
   const std::vector<Body> opened = opened_bodies(joint, views.across);
   put(sheet, apart, "Apart: A left, B right, broken faces turned to the eye",
@@ -67,81 +67,97 @@ void draw_upper_row(Image& sheet, const Joint& joint) {
   struct View {
     const char* caption;
     glm::dvec3 back;
+    Area area;
   };
-  const std::array<View, 3> joined_views{{{"Joined", views.best},
-                                          {"Joined: across the seam", views.across},
-                                          {"Joined: along the seam", views.along}}};
   const int left = apart.x + apart.width + kGutter;
-  const int width = (kWidth - kMargin - left - 2 * kGutter) / 3;
-  for (int k = 0; k < 3; ++k) {
-    const Area area{left + k * (width + kGutter), kUpper, width, kUpperHeight};
-    put(sheet, area, joined_views[k].caption,
-        shaded(scene, joined, joined_views[k].back, up_for(joint, joined_views[k].back), inside(area)));
+  const int right = left + 650 + kGutter;
+  const int width = kWidth - kMargin - right;
+  const int half = (kUpperHeight - kGutter) / 2;
+  const std::array<View, 3> shown{
+      {{"Joined", views.best, {left, kUpper, 650, kUpperHeight}},
+       {"Joined: across the seam", views.across, {right, kUpper, width, half}},
+       {"Joined: along the seam", views.along, {right, kUpper + half + kGutter, width, half}}}};
+  for (const View& view : shown) {
+    put(sheet, view.area, view.caption,
+        shaded(scene, joined, view.back, up_for(joint, view.back), inside(view.area)));
   }
 }
 
-/// An orthographic camera that looks at the contact from `back`, `right` to the right.
-Camera contact_camera(const Joint& joint, const glm::dvec3& back, const glm::dvec3& right, const Area& area) {
+/// Where the two broken faces go: one above the other, or side by side.
+struct Book {
+  bool stacked = false;
+  Area a;
+  Area b;
+
+  /// Pixels a mesh unit at which a contact of that length and width fits into one page.
+  double scale(const Joint& joint) const {
+    const double wide = stacked ? joint.length : joint.width;
+    const double high = stacked ? joint.width : joint.length;
+    return std::min(a.width / std::max(wide, 1e-30), a.height / std::max(high, 1e-30));
+  }
+};
+
+Book open_book(const Joint& joint, const Area& area) {
+  Book stacked{true, area, area};
+  stacked.a.height = stacked.b.height = area.height / 2;
+  stacked.b.y += area.height / 2;
+  Book beside{false, area, area};
+  beside.a.width = beside.b.width = area.width / 2;
+  beside.b.x += area.width / 2;
+  return stacked.scale(joint) >= beside.scale(joint) ? stacked : beside;
+}
+
+/// An orthographic camera that looks at the contact, or at the whole fragment where there is none.
+Camera page_camera(const Joint& joint, const Body& body, const Book& book, const glm::dvec3& back,
+                   const glm::dvec3& right) {
   constexpr double kRoom = 1.12;
+  const Area& page = book.a;
+  const glm::dvec3 up = glm::cross(back, right);
+  if (joint.contact.area <= 0)
+    return fit_camera({body}, back, up, static_cast<double>(page.width) / page.height);
   Camera camera;
   camera.target = joint.centre;
   camera.right = right;
-  camera.up = glm::cross(back, right);
-  const bool flat = std::abs(glm::dot(right, joint.along)) > 0.5;
-  const double across = flat ? joint.length : joint.width;
-  const double high = flat ? joint.width : joint.length;
-  camera.half_height = kRoom / 2 * std::max(high, across * area.height / area.width);
-  if (joint.contact.area <= 0)
-    camera.half_height = 0.5 * std::max(mesh::diameter(joint.a), mesh::diameter(joint.b));
+  camera.up = up;
+  camera.half_height = kRoom / 2 * page.height / book.scale(joint);
   return camera;
 }
 
-Image gap_view(const Joint& joint, bool of_a, const glm::dvec3& right, const Area& area) {
+Image gap_view(const Joint& joint, const Book& book, bool of_a) {
   Body body = joined_bodies(joint)[of_a ? 0 : 1];
-  body.vertex_colours = gap_colours(of_a ? joint.gap_a : joint.gap_b, joint.reach);
+  body.vertex_colours = gap_colours(of_a ? joint.gap_a : joint.gap_b, joint.scale);
   RenderOptions options;
-  options.width = area.width;
-  options.height = area.height;
+  options.width = book.a.width;
+  options.height = book.a.height;
   options.ambient_rays = 0;
   options.relief = 0.35;  // enough to see the relief, little enough to read the colours
   const glm::dvec3 back = of_a ? joint.normal : -joint.normal;
-  return Scene({body}).render(contact_camera(joint, back, right, area), options);
+  const glm::dvec3 right = book.stacked ? joint.along : of_a ? joint.across : -joint.across;
+  return Scene({body}).render(page_camera(joint, body, book, back, right), options);
 }
 
 /// Both broken faces face on, opened like a book: what touches lies mirrored about the fold.
 void draw_gap_views(Image& sheet, const Joint& joint, const Area& area) {
-  const bool stacked = joint.length > 1.3 * joint.width;
-  const Area inner = inside(area);
-  Area first = inner;
-  Area second = inner;
-  if (stacked) {
-    first.height = inner.height / 2;
-    second = {inner.x, inner.y + first.height, inner.width, inner.height - first.height};
-  } else {
-    first.width = inner.width / 2;
-    second = {inner.x + first.width, inner.y, inner.width - first.width, inner.height};
-  }
-  const glm::dvec3 right_a = stacked ? joint.along : joint.across;
-  const glm::dvec3 right_b = stacked ? joint.along : -joint.across;
-  paste(sheet, gap_view(joint, true, right_a, first), first.x, first.y);
-  paste(sheet, gap_view(joint, false, right_b, second), second.x, second.y);
+  const Book book = open_book(joint, inside(area));
+  paste(sheet, gap_view(joint, book, true), book.a.x, book.a.y);
+  paste(sheet, gap_view(joint, book, false), book.b.x, book.b.y);
   frame(sheet, area, "Broken faces by gap, opened like a book");
-  const glm::dvec2 from(second.x + (stacked ? 8 : 0), second.y + (stacked ? 0 : 8));
-  const glm::dvec2 to(stacked ? second.x + second.width - 8 : second.x,
-                      stacked ? second.y : second.y + second.height - 8);
-  draw_line(sheet, from, to, {150, 152, 158}, 1);
-  draw_text(sheet, first.x + 12, first.y + 22, "A", {14, kInk, Align::Left, true});
-  draw_text(sheet, second.x + 12, second.y + 22, "B", {14, kInk, Align::Left, true});
+  const int width = book.stacked ? book.b.width - 16 : 1;
+  const int height = book.stacked ? 1 : book.b.height - 16;
+  fill(sheet, {book.b.x + (book.stacked ? 8 : 0), book.b.y + (book.stacked ? 0 : 8), width, height},
+       {150, 152, 158});
+  draw_text(sheet, book.a.x + 12, book.a.y + 22, "A", {14, kInk, Align::Left, true});
+  draw_text(sheet, book.b.x + 12, book.b.y + 22, "B", {14, kInk, Align::Left, true});
 }
 
-/// Share of the contact's vertices in each of `count` equal classes from -reach to reach.
+/// Share of the contact's vertices in each of `count` equal classes from -scale to scale; larger gaps count in the last.
 std::vector<double> histogram(const Joint& joint, int count) {
   std::vector<double> result(count, 0.0);
   double total = 0;
   for (const auto* gaps : {&joint.gap_a, &joint.gap_b}) {
     for (const float gap : *gaps) {
       if (std::isnan(gap)) continue;
-      const auto at = static_cast<int>((gap / joint.reach + 1) / 2 * count);
+      const auto at = static_cast<int>(std::floor((gap / joint.scale + 1) / 2 * count));
       result[std::clamp(at, 0, count - 1)] += 1;
       total += 1;
     }
@@ -165,7 +181,7 @@ void draw_gap_legend(Image& sheet, const Joint& joint, const Area& area) {
     const int top = bar.y + bar.height - (k + 1) * bar.height / count;
     fill(sheet, {bar_x - 4 - length, top, length, std::max(1, bottom - top - 1)}, {120, 126, 136});
   }
-  draw_bar(sheet, bar, {gap_colour, -joint.reach, joint.reach, true, ""}, 12);
+  draw_bar(sheet, bar, {gap_colour, -joint.scale, joint.scale, true, ""}, 12);
   const int y = area.y + area.height - 92;
   fill(sheet, {area.x + 14, y, 20, 14}, kNoContact);
   draw_text(sheet, area.x + 42, y + 13, "no contact within " + short_number(joint.reach), {12, kInk});
@@ -233,10 +249,10 @@ void draw_header(Image& sheet, const Joint& joint, const SheetLabels& labels) {
 
 }  // namespace
 
-std::vector<Colour> gap_colours(const std::vector<float>& gaps, double reach) {
+std::vector<Colour> gap_colours(const std::vector<float>& gaps, double scale) {
   std::vector<Colour> result(gaps.size());
   std::transform(gaps.begin(), gaps.end(), result.begin(),
-                 [&](float gap) { return gap_colour(gap / reach); });
+                 [&](float gap) { return gap_colour(gap / scale); });
   return result;
 }
 

@@ -263,6 +263,11 @@ Image Scene::render(const Camera& camera, const RenderOptions& options) const {
   return image;
 }
 
+Camera Scene::overview(const glm::dvec3& back, const glm::dvec3& up) const {
+  const glm::dvec3 right = glm::normalize(glm::cross(up, back));
+  return {impl_->soup.centre, right, glm::cross(back, right), impl_->soup.radius, 0};
+}
+
 Visibility Scene::look(const Camera& camera, int width, int height) const {
   const Eye eye(camera, impl_->soup, width, height);
   const std::size_t count = static_cast<std::size_t>(width) * height;

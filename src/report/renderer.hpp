@@ -70,6 +70,10 @@ class Scene {
   /// light, ambient occlusion, 2 x 2 samples a pixel.  Both sides of a face are drawn.
   Image render(const Camera& camera, const RenderOptions& options) const;
 
+  /// An orthographic camera that sees everything, whatever the direction, always at the same scale.
+  /// \param back, up  as for fit_camera()
+  Camera overview(const glm::dvec3& back, const glm::dvec3& up) const;
+
   /// One ray a pixel.
   Visibility look(const Camera& camera, int width, int height) const;
 

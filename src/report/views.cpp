@@ -88,10 +88,8 @@ glm::dvec3 up_for(const Joint& joint, const glm::dvec3& back) {
 }
 
 JointViews choose_views(const Joint& joint, const Scene& joined) {
-  const std::vector<Body> bodies = joined_bodies(joint);
   const auto worth = [&](const glm::dvec3& back) {
-    return informativeness(
-        joined.look(fit_camera(bodies, back, up_for(joint, back), 1.0), kLookSide, kLookSide));
+    return informativeness(joined.look(joined.overview(back, up_for(joint, back)), kLookSide, kLookSide));
   };
   const auto better = [&](const glm::dvec3& direction) {
     return worth(direction) >= worth(-direction) ? direction : -direction;
