@@ -103,6 +103,11 @@ Rigid moved(const Rigid& pose, const Vector6& step, const glm::dvec3& pivot) {
   return Rigid{rotation, pivot + shift - rotation * pivot} * pose;
 }
 
+/// Step that visits at most `most` of `count` items; most <= 0: all.
+std::size_t stride(std::size_t count, int most) {
+  return most > 0 ? std::max<std::size_t>(1, count / static_cast<std::size_t>(most)) : 1;
+}
+
 double median(std::vector<double>& values) {
   if (values.empty()) return 0.0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -133,9 +138,10 @@ struct Joint::Impl {
     const glm::mat3 r(pose.rotation);
     const glm::vec3 t(pose.translation);
     std::vector<std::uint32_t> list;
-    for (std::uint32_t i = 0; i < cloud.points.size(); ++i) {
+    const std::size_t step = stride(cloud.points.size(), 8 * most);
+    for (std::size_t i = 0; i < cloud.points.size(); i += step) {
       const auto hit = index.nearest(apply(r, t, cloud.points[i]));
-      if (hit && static_cast<double>(hit->second) < reach) list.push_back(i);
+      if (hit && static_cast<double>(hit->second) < reach) list.push_back(static_cast<std::uint32_t>(i));
     }
     if (most > 0 && list.size() > static_cast<std::size_t>(most)) {
       std::vector<std::uint32_t> fewer;
@@ -179,7 +185,7 @@ struct Joint::Impl {
     }
   }
 
-  void look_at_contact(const Rigid& pose, Evidence& e) const;
+  void look_at_contact(const Rigid& pose, int most_samples, Evidence& e) const;
   void look_for_penetration(const Rigid& pose, Evidence& e) const;
   void look_at_walls(const Rigid& pose, Evidence& e) const;
 };
@@ -269,16 +275,16 @@ std::vector<double> heights_above_quadric(const std::vector<glm::dvec3>& points,
 
 }  // namespace
 
-Evidence Joint::evidence(const Rigid& pose) const {
+Evidence Joint::evidence(const Rigid& pose, int most_samples) const {
   const Impl& d = *impl_;
   Evidence e;
-  d.look_at_contact(pose, e);
+  d.look_at_contact(pose, most_samples, e);
   d.look_for_penetration(pose, e);
   if (d.thickness > 0) d.look_at_walls(pose, e);
   return e;
 }
 
-void Joint::Impl::look_at_contact(const Rigid& pose, Evidence& e) const {
+void Joint::Impl::look_at_contact(const Rigid& pose, int most_samples, Evidence& e) const {
   const glm::mat3 r(pose.rotation);
   const glm::vec3 t(pose.translation);
   std::vector<double> gaps;
@@ -288,7 +294,9 @@ void Joint::Impl::look_at_contact(const Rigid& pose, Evidence& e) const {
   glm::dvec3 low(1e300);
   glm::dvec3 high(-1e300);
   double touching = 0.0;
-  for (std::size_t i = 0; i < b.broken.points.size(); ++i) {
+  const std::size_t step = stride(b.broken.points.size(), most_samples);
+  const double share = static_cast<double>(step) * b.sample_area;
+  for (std::size_t i = 0; i < b.broken.points.size(); i += step) {
     const glm::vec3 p = apply(r, t, b.broken.points[i]);
     const auto hit = a.broken_index->nearest(p);
     if (!hit) continue;
@@ -309,15 +317,15 @@ void Joint::Impl::look_at_contact(const Rigid& pose, Evidence& e) const {
     low = glm::min(low, glm::dvec3(p));
     high = glm::max(high, glm::dvec3(p));
   }
-  e.contact_area = touching * b.sample_area;
-  e.shared_area = static_cast<double>(gaps.size()) * b.sample_area;
+  e.contact_area = touching * share;
+  e.shared_area = static_cast<double>(gaps.size()) * share;
   if (touching > 0) e.length = glm::length(high - low);
   e.gap_median = median(gaps);
   if (glm::length(normal) > 0) e.normal = glm::normalize(normal);
   if (core.size() < 12 || !(glm::length(normal) > 0)) return;
   e.gap_spread = robust_deviation(core_gaps);
   e.relief = robust_deviation(heights_above_quadric(core, glm::normalize(normal)));
-  const double patches = static_cast<double>(core.size()) * b.sample_area / (patch * patch);
+  const double patches = static_cast<double>(core.size()) * share / (patch * patch);
   e.information =
       0.5 * patches *
       std::log((e.relief * e.relief + noise * noise) / (e.gap_spread * e.gap_spread + noise * noise));

@@ -46,7 +46,8 @@ class Joint {
   /// are lined up too. Gaps are tolerated (worn surfaces recede): outliers weigh nothing (Tukey).
   Rigid align(const Rigid& start, const AlignOptions& options) const;
 
-  Evidence evidence(const Rigid& pose) const;
+  /// \param most_samples  of B's samples are looked at; 0: all
+  Evidence evidence(const Rigid& pose, int most_samples) const;
 
   /// Distance below which surfaces touch: a tenth of the wall of thin pieces, or what the scans can tell.
   double tolerance() const;

@@ -17,6 +17,8 @@ constexpr double kDegree = 0.017453292519943295;
 constexpr double kFacetSpread_deg =
     25.0;  // how far a facet's mean normal may lie from the direction that a user sees
 
+constexpr int kQuickSamples = 2500;  // of B's broken surface while there are many hypotheses
+
 /// A pose on its way through the stages; relative to the meshes' origins.
 struct Hypothesis {
   Rigid pose;
@@ -121,7 +123,7 @@ void refine(std::vector<Hypothesis>& list, const Joint& joint, const AlignOption
     for (std::size_t k = first; k < last; ++k) {
       if (context.cancelled()) return;
       list[k].pose = joint.align(list[k].pose, options);
-      list[k].evidence = joint.evidence(list[k].pose);
+      list[k].evidence = joint.evidence(list[k].pose, options.most_samples > 0 ? kQuickSamples : 0);
       list[k].strength = strength(list[k].evidence);
       done[k] = 1;
     }

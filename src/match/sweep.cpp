@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "core/parallel.hpp"
 
@@ -9,11 +10,13 @@ namespace rejoin::match {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kAcross = 7.0;       // pixels across a strip
-constexpr double kMapSide = 36.0;     // pixels across a plate
-constexpr double kElongated = 3.0;    // length over mean width from which a facet is a strip
-constexpr double kStripTurn = 0.35;   // strips lie along each other within 20 degrees
-constexpr double kSmallFacet = 0.02;  // of the largest facet's area: too small to tell
+constexpr double kAcross = 7.0;          // pixels across a strip
+constexpr double kMapSide = 36.0;        // pixels across a plate
+constexpr double kElongated = 3.0;       // length over mean width from which a facet is a strip
+constexpr double kStripTurn = 0.35;      // strips lie along each other within 20 degrees
+constexpr double kCoarser = 2.0;         // pitch of the first look at plates
+constexpr std::size_t kSecondLook = 48;  // coarse peaks of a pair of fragments that are looked at finely
+constexpr double kSmallFacet = 0.02;     // of the largest facet's area: too small to tell
 
 double mean_width(const FacetPatch& patch) {
   return patch.area / std::max(patch.length, 1e-30);
@@ -22,15 +25,14 @@ bool is_strip(const FacetPatch& patch) {
   return patch.length > kElongated * mean_width(patch);
 }
 
+/// Pixel size of the fine maps.
 double pitch_for(const FacetPatch& a, const FacetPatch& b, double resolution) {
   const double across = std::min(mean_width(a), mean_width(b)) / kAcross;
   const double side = std::sqrt(std::min(a.area, b.area)) / kMapSide;
   return std::max(std::min(across, side), resolution);
 }
 
-std::vector<double> turns_for(const FacetPatch& a, const FacetPatch& b, double pitch, double step_px) {
-  const double reach = 0.5 * std::min(a.length, b.length);
-  const double step = std::clamp(step_px * pitch / reach, 0.02, 0.2);
+std::vector<double> turns_for(const FacetPatch& a, const FacetPatch& b, double step) {
   std::vector<double> turns;
   if (is_strip(a) && is_strip(b)) {
     const int side = static_cast<int>(std::ceil(kStripTurn / step));
@@ -115,10 +117,9 @@ std::vector<SweepHit> distinct(std::vector<SweepHit> hits, double near, double r
   return kept;
 }
 
-SweepResult sweep_facets(const FacetPatch& a, const FacetPatch& b, const Task& task, double resolution,
-                         const SweepOptions& options) {
-  const double pitch = pitch_for(a, b, resolution);
-  const auto turns = turns_for(a, b, pitch, options.turn_step_px);
+/// All shifts of b's patch on a's at the given turns.
+SweepResult correlate_turns(const FacetPatch& a, const FacetPatch& b, const Task& task, double pitch,
+                            const std::vector<double>& turns, int keep) {
   const ReliefMap map_a = relief_of(a, pitch);
   std::vector<ReliefMap> maps_b;
   int width = 0;
@@ -131,16 +132,34 @@ SweepResult sweep_facets(const FacetPatch& a, const FacetPatch& b, const Task& t
   Correlator correlator(map_a, width, height, CorrelateOptions{});
   SweepResult result;
   result.evaluations = static_cast<long>(turns.size()) * correlator.shifts();
-  auto& hits = result.hits;
   for (std::size_t t = 0; t < turns.size(); ++t) {
     for (const Agreement& peak : correlator.peaks(maps_b[t])) {
-      hits.push_back({task.facet_a, task.facet_b, turns[t], pitch, peak,
-                      pose_of_peak(a, b, map_a, maps_b[t], peak, turns[t])});
+      result.hits.push_back({task.facet_a, task.facet_b, turns[t], pitch, peak,
+                             pose_of_peak(a, b, map_a, maps_b[t], peak, turns[t])});
     }
   }
-  result.hits = distinct(std::move(hits), 3.0 * pitch, 0.5 * std::min(a.length, b.length),
-                         static_cast<std::size_t>(options.per_pair_of_facets));
+  result.hits = distinct(std::move(result.hits), 3.0 * pitch, 0.5 * std::min(a.length, b.length),
+                         static_cast<std::size_t>(keep));
   return result;
+}
+
+double turn_step(const FacetPatch& a, const FacetPatch& b, double pitch, double step_px) {
+  return std::clamp(2.0 * step_px * pitch / std::min(a.length, b.length), 0.02, 0.25);
+}
+
+/// The fine turns around the coarse peaks that are worth a second look.
+std::vector<double> turns_near(const std::vector<SweepHit>& coarse, double reach, double step) {
+  std::vector<double> turns;
+  const int side = static_cast<int>(std::ceil(reach / step));
+  for (const SweepHit& hit : coarse) {
+    for (int k = -side; k <= side; ++k) turns.push_back(hit.turn_rad + k * reach / side);
+  }
+  std::sort(turns.begin(), turns.end());
+  std::vector<double> apart;
+  for (const double turn : turns) {
+    if (apart.empty() || turn - apart.back() > 0.7 * step) apart.push_back(turn);
+  }
+  return apart;
 }
 
 std::vector<int> candidates(const Fragment& fragment, const std::vector<int>& chosen) {
@@ -173,20 +192,52 @@ SweepResult sweep(const Fragment& a, const Fragment& b, const SweepOptions& opti
   const auto patches_a = patches_of(a, list_a);
   const auto patches_b = patches_of(b, list_b);
   const double resolution = std::max(a.resolution, b.resolution);
-  std::vector<SweepResult> found(patches_a.size() * patches_b.size());
-  parallel_for(found.size(), 1, [&](std::size_t first, std::size_t last) {
-    for (std::size_t k = first; k < last; ++k) {
-      if (context.cancelled()) return;
-      const std::size_t i = k / patches_b.size();
-      const std::size_t j = k % patches_b.size();
-      if (patches_a[i].faces.empty() || patches_b[j].faces.empty()) continue;
-      found[k] = sweep_facets(patches_a[i], patches_b[j], {list_a[i], list_b[j]}, resolution, options);
+  const std::size_t pairs = patches_a.size() * patches_b.size();
+  std::vector<SweepResult> coarse(pairs);
+  std::vector<SweepResult> fine(pairs);
+  const auto each_pair = [&](const auto& body) {
+    parallel_for(pairs, 1, [&](std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k) {
+        if (context.cancelled()) return;
+        const std::size_t i = k / patches_b.size();
+        const std::size_t j = k % patches_b.size();
+        if (patches_a[i].faces.empty() || patches_b[j].faces.empty()) continue;
+        body(k, patches_a[i], patches_b[j], Task{list_a[i], list_b[j]});
+      }
+    });
+  };
+  // Strips are cheap enough to be looked at finely at once; plates first at a coarse pitch.
+  each_pair([&](std::size_t k, const FacetPatch& pa, const FacetPatch& pb, const Task& task) {
+    const double pitch = pitch_for(pa, pb, resolution);
+    if (is_strip(pa) && is_strip(pb)) {
+      const double step = turn_step(pa, pb, pitch, options.turn_step_px);
+      fine[k] = correlate_turns(pa, pb, task, pitch, turns_for(pa, pb, step), options.per_pair_of_facets);
+      return;
     }
+    const double step = turn_step(pa, pb, kCoarser * pitch, options.turn_step_px);
+    coarse[k] =
+        correlate_turns(pa, pb, task, kCoarser * pitch, turns_for(pa, pb, step), options.per_pair_of_facets);
+  });
+  context.report("search", 0.6);
+  std::vector<float> scores;
+  for (const auto& part : coarse) {
+    for (const auto& hit : part.hits) scores.push_back(hit.agreement.score);
+  }
+  std::sort(scores.begin(), scores.end(), std::greater<>());
+  const float least = scores.size() > kSecondLook ? scores[kSecondLook] : -1.0F;
+  each_pair([&](std::size_t k, const FacetPatch& pa, const FacetPatch& pb, const Task& task) {
+    std::vector<SweepHit> worth = coarse[k].hits;
+    std::erase_if(worth, [&](const SweepHit& hit) { return hit.agreement.score < least; });
+    if (worth.empty()) return;
+    const double pitch = pitch_for(pa, pb, resolution);
+    const double step = turn_step(pa, pb, pitch, options.turn_step_px);
+    const auto turns = turns_near(worth, turn_step(pa, pb, kCoarser * pitch, options.turn_step_px), step);
+    fine[k] = correlate_turns(pa, pb, task, pitch, turns, options.per_pair_of_facets);
   });
   SweepResult result;
-  for (const auto& part : found) {
-    result.hits.insert(result.hits.end(), part.hits.begin(), part.hits.end());
-    result.evaluations += part.evaluations;
+  for (std::size_t k = 0; k < pairs; ++k) {
+    result.hits.insert(result.hits.end(), fine[k].hits.begin(), fine[k].hits.end());
+    result.evaluations += coarse[k].evaluations + fine[k].evaluations;
   }
   result.hits = distinct(std::move(result.hits), 3.0 * resolution, 0.25 * std::min(a.diameter, b.diameter),
                          static_cast<std::size_t>(options.most));

@@ -13,7 +13,7 @@ namespace {
 constexpr float kSquare = 0.8F;  // rays that leave within 37 degrees of the normal count for the thickness
 constexpr double kBinsPerOctave = 12.0;  // 6 % wide bins: finer than the walls of a thrown pot vary
 constexpr double kThinnest = 1.0 / 4096.0;
-constexpr double kMostOfSize = 0.25;
+constexpr double kMostOfSize = 0.12;
 
 }  // namespace
 
