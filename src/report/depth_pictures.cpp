@@ -38,6 +38,19 @@ MapWindow covered_window(const std::vector<const zbuffer::DepthMap*>& maps, int 
   return {left, low, std::min(width, right + 1 + margin) - left, std::min(height, high + 1 + margin) - low};
 }
 
+Image map_pixels(const zbuffer::DepthMap& map, const MapWindow& window, int zoom, const ColourBar& bar) {
+  Image image(window.width * zoom, window.height * zoom, kNothing);
+  const double centre = bar.diverging ? 0.0 : bar.low;
+  const double range = bar.high - centre;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const float value = map.at(window.x + x / zoom, window.y + window.height - 1 - y / zoom);
+      if (!std::isnan(value)) image.at(x, y) = bar.colour((value - centre) / range);
+    }
+  }
+  return image;
+}
+
 Image draw_map(const zbuffer::DepthMap& map, const MapPicture& style) {
   const MapWindow window = style.window.width > 0 ? style.window : MapWindow{0, 0, map.width, map.height};
   const int zoom = std::max(1, std::min(kPictureSide / window.width, kPictureSide / window.height));
@@ -45,15 +58,7 @@ Image draw_map(const zbuffer::DepthMap& map, const MapPicture& style) {
   const int height = window.height * zoom;
   const int frame = std::max(height, kLeastHeight);
   Image image(std::max(width, kLeastWidth) + 2 * kMargin + kLegend, frame + kHead + kMargin, kPaper);
-  const double centre = style.bar.diverging ? 0.0 : style.bar.low;
-  const double range = style.bar.high - centre;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const float value = map.at(window.x + x / zoom, window.y + window.height - 1 - y / zoom);
-      image.at(kMargin + x, kHead + y) =
-          std::isnan(value) ? kNothing : style.bar.colour((value - centre) / range);
-    }
-  }
+  paste(image, map_pixels(map, window, zoom, style.bar), kMargin, kHead);
   outline(image, {kMargin, kHead, width, height}, {200, 202, 206});
   const TextStyle title{15, kInk, Align::Left, true};
   draw_text(image, kMargin, 28, fitted(style.title, title, image.width - 2 * kMargin), title);

@@ -21,6 +21,10 @@ struct MapWindow {
 /// The box of all covered pixels of the maps (of equal shape) with `margin` pixels around it; the whole map if nothing is covered.
 MapWindow covered_window(const std::vector<const zbuffer::DepthMap*>& maps, int margin);
 
+/// The pixels of a map in colours, v upwards, background pale.
+/// \param zoom  picture pixels a map pixel
+Image map_pixels(const zbuffer::DepthMap& map, const MapWindow& window, int zoom, const ColourBar& bar);
+
 /// How a map is coloured and labelled.
 struct MapPicture {
   std::string title;
