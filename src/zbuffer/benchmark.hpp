@@ -16,8 +16,8 @@ struct BenchmarkOptions {
   const mesh::Mesh* b = nullptr;  ///< likewise
   std::size_t faces = 10000;      ///< of a generated sphere, at least 12
   std::vector<int> resolutions{64, 128, 256};  ///< pixels
-  std::vector<int> threads;                    ///< empty: 1 and all cores
-  std::vector<Backend> backends;               ///< empty: every available one but the reference
+  std::vector<int> threads{};                  ///< empty: 1 and all cores
+  std::vector<Backend> backends{};             ///< empty: every available one but the reference
   double seconds_per_row = 0.5;                ///< measured time of a row, after one batch to warm up
   std::uint64_t seed = 1;                      ///< of the orientations, uniform over all rotations
 };

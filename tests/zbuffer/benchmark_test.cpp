@@ -1,0 +1,61 @@
+#include "zbuffer/benchmark.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace rejoin::zbuffer {
+namespace {
+
+TEST(BumpySphere, IsClosedAndSeenFromOutside) {
+  const mesh::Mesh sphere = bumpy_sphere(1000, 3);
+  EXPECT_NEAR(static_cast<double>(sphere.faces.size()), 1000.0, 120.0);  // 12 k^2 nearest to it: 972
+  std::map<std::pair<unsigned, unsigned>, int> edges;
+  double volume = 0;
+  for (const glm::uvec3& f : sphere.faces) {
+    for (int k = 0; k < 3; ++k) ++edges[{f[k], f[(k + 1) % 3]}];
+    const glm::dvec3 a(sphere.vertices[f.x]);
+    volume +=
+        glm::dot(a, glm::cross(glm::dvec3(sphere.vertices[f.y]), glm::dvec3(sphere.vertices[f.z]))) / 6.0;
+  }
+  for (const auto& [edge, count] : edges) {
+    EXPECT_EQ(count, 1);
+    EXPECT_EQ(edges.count({edge.second, edge.first}), 1U);
+  }
+  EXPECT_NEAR(volume, 4.19, 0.6);  // a ball of radius 1 with bumps
+}
+
+TEST(Benchmark, HasARowForEachBackendResolutionAndNumberOfThreads) {
+  const BenchmarkOptions options{.faces = 300,
+                                 .resolutions = {16, 32},
+                                 .threads = {2, 1, 1},
+                                 .backends = {Backend::Raster, Backend::RayCast},
+                                 .seconds_per_row = 0.001};
+  const auto rows = benchmark(options, Context());
+  ASSERT_EQ(rows.size(), 8U);
+  for (const BenchmarkRow& row : rows) {
+    EXPECT_EQ(row.faces, 300U);  // 12 * 5^2
+    EXPECT_GT(row.evaluations_per_second, 0.0);
+    EXPECT_FALSE(row.renderer.empty());
+  }
+  EXPECT_EQ(rows[0].threads, 1);
+  EXPECT_EQ(rows[1].threads, 2);
+  EXPECT_EQ(rows[2].resolution, 32);
+}
+
+TEST(Benchmark, EndsWhenCancelled) {
+  Context context;
+  context.cancel();
+  EXPECT_TRUE(benchmark({.faces = 12, .backends = {Backend::Raster}}, context).empty());
+}
+
+TEST(Benchmark, MeshWithoutFacesThrows) {
+  const mesh::Mesh empty;
+  EXPECT_THROW(benchmark({.a = &empty, .backends = {Backend::Raster}}, Context()), InputError);
+}
+
+}  // namespace
+}  // namespace rejoin::zbuffer
