@@ -29,6 +29,7 @@ struct Arguments {
   std::vector<std::string> constraints = {"none", "facets", "true"};
   std::string backend = "auto";
   double least_contact = 0;
+  bool both_criteria = false;
   bool facet_maps = false;
   bool no_overlap_bias = false;
   RunOptions run;
@@ -36,10 +37,11 @@ struct Arguments {
 
 void print_head(const RunOptions& run) {
   fmt::print(
-      "{} runs a row, {} x {} pixels, {}{}, shifts up to {} R, N_fail {}, seed {}\n\n", run.seeds,
+      "{} runs a row, {} x {} pixels, {}{}, shifts up to {} R, N_fail {}{}, seed {}\n\n", run.seeds,
       run.resolution, run.resolution,
       run.maps == match::MapSource::Fragment ? "maps of the whole fragments" : "maps of the fracture facets",
-      run.overlap_bias ? ", overlap bias" : "", run.shift_range, run.failed_stages, run.first_seed);
+      run.overlap_bias ? ", overlap bias" : "", run.shift_range, run.failed_stages,
+      run.equilibrium == anneal::Equilibrium::Both ? ", both criteria of equilibrium" : "", run.first_seed);
   fmt::print(
       "| set | pair | contact | constraint | right | <e_d> | most frequent wrong | <e_d> | e_d at the truth "
       "| "
@@ -104,11 +106,14 @@ int run(int argc, char** argv) {
   app.add_option("--shift-range", arguments.run.shift_range, "of x1 and y1, fraction of R")
       ->capture_default_str();
   app.add_option("--failed-stages", arguments.run.failed_stages, "N_fail")->capture_default_str();
+  app.add_flag("--both-criteria", arguments.both_criteria,
+               "a temperature needs 80 tried and 8 accepted moves");
   app.add_flag("--facet-maps", arguments.facet_maps, "draw the fracture facets alone");
   app.add_flag("--no-overlap-bias", arguments.no_overlap_bias, "e_d alone");
   CLI11_PARSE(app, argc, argv);
   arguments.run.backend = kBackends.at(arguments.backend);
   arguments.run.overlap_bias = !arguments.no_overlap_bias;
+  if (arguments.both_criteria) arguments.run.equilibrium = anneal::Equilibrium::Both;
   if (arguments.facet_maps) arguments.run.maps = match::MapSource::Facet;
   print_head(arguments.run);
   for (const std::string& folder : arguments.sets) measure_set(folder, arguments);

@@ -141,6 +141,7 @@ std::optional<Outcome> measure(const match::Fragment& a, const match::Fragment& 
   esa.rule.overlap_bias = run.overlap_bias;
   esa.directions_per_fragment = run.directions;
   esa.shift_range = run.shift_range;
+  esa.annealing.equilibrium = run.equilibrium;
   esa.annealing.failed_stages = run.failed_stages;
   esa.every_chain = true;
   match::EsaStats stats;

@@ -26,7 +26,8 @@ struct RunOptions {
   zbuffer::Backend backend = zbuffer::Backend::Auto;
   std::uint64_t first_seed = 1;
   double shift_range = 0.1;  ///< bound of |x1| and |y1| as a fraction of R
-  int failed_stages = 4;     ///< N_fail
+  anneal::Equilibrium equilibrium = anneal::Equilibrium::Either;
+  int failed_stages = 4;  ///< N_fail
 };
 
 /// Runs that ended at about the same pose.

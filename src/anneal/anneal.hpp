@@ -17,9 +17,15 @@ namespace rejoin::anneal {
 /// Range of one variable.
 struct Variable {
   double low = 0;
-  double high = 1;  ///< > low
-  bool wraps =
-      false;  ///< low and high are the same place (an angle); otherwise moves are folded back at the bounds
+  double high = 1;     ///< > low
+  bool wraps = false;  ///< low and high are one place (an angle); otherwise moves fold back at the bounds
+};
+
+/// How the two numbers of moves at one temperature combine.  The paper defines equilibrium by one "or" the other and
+/// then uses "both criteria"; Siarry et al. 1997 end a temperature by either.
+enum class Equilibrium {
+  Either,  ///< enough moves tried or enough accepted: short hot stages, so N_fail ends a run early
+  Both,    ///< enough moves tried and enough accepted: three times as many moves a run
 };
 
 /// The paper's numbers are the defaults.
@@ -30,12 +36,13 @@ struct Options {
   double initial_acceptance = 0.5;  ///< P0: acceptance of the average uphill move at T0, in (0, 1)
   int uphill_transitions = 50;      ///< of the Monte Carlo stage that sets T0 and T_stop
   int moved_variables = 2;          ///< M: variables that one move changes
-  int attempted = 80;               ///< equilibrium: this many moves tried at one temperature ...
-  int accepted = 8;                 ///< ... or this many accepted
-  double cooling_min = 0.6;         ///< a_min
-  double cooling_max = 0.9;         ///< a_max
-  int failed_stages = 4;            ///< N_fail: temperatures in a row without a new best
-  int moves = 2000;                 ///< N_iter: moves after the Monte Carlo stage
+  Equilibrium equilibrium = Equilibrium::Either;
+  int attempted = 80;        ///< moves tried at one temperature
+  int accepted = 8;          ///< moves accepted at one temperature
+  double cooling_min = 0.6;  ///< a_min
+  double cooling_max = 0.9;  ///< a_max
+  int failed_stages = 4;     ///< N_fail: temperatures in a row without a new best
+  int moves = 2000;          ///< N_iter: moves after the Monte Carlo stage
   double first_step = 0.25;  ///< half width of the first moves, as a fraction of a variable's range, (0, 0.5]
   double least_step = 1e-4;  ///< moves never become smaller than this fraction of the range
 };

@@ -138,8 +138,14 @@ void Chain::receive_move(double energy) {
     ++finite_states_;
   }
   const bool budget_spent = moves_ >= options_.moves;
-  if (budget_spent || attempted_ >= options_.attempted || accepted_ >= options_.accepted) finish_stage();
+  if (budget_spent || in_equilibrium()) finish_stage();
   if (budget_spent && !done()) end(Ending::BudgetSpent);
+}
+
+bool Chain::in_equilibrium() const {
+  const bool tried = attempted_ >= options_.attempted;
+  const bool taken = accepted_ >= options_.accepted;
+  return options_.equilibrium == Equilibrium::Both ? tried && taken : tried || taken;
 }
 
 void Chain::finish_stage() {

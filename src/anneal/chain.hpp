@@ -45,6 +45,7 @@ class Chain {
   void receive_estimate(double energy);
   void finish_estimate();
   void receive_move(double energy);
+  bool in_equilibrium() const;
   void finish_stage();
   void begin_stage();
   void adapt_steps();

@@ -138,6 +138,21 @@ TEST(Chain, AStageEndsAfterEightAcceptedOrEightyAttempted) {
   EXPECT_TRUE(by_acceptance);
 }
 
+TEST(Chain, WithBothCriteriaAStageNeedsEightyAttemptedAndEightAccepted) {
+  const auto variables = box(7, -1, 1);
+  Options options;
+  options.failed_stages = 1000;
+  options.equilibrium = Equilibrium::Both;
+  const ChainResult result = run(variables, options, quadratic);
+  bool beyond = false;
+  for (std::size_t s = 1; s + 1 < result.history.size(); ++s) {  // the budget cuts the last one
+    const long length = result.history[s].evaluations - result.history[s - 1].evaluations;
+    EXPECT_GE(length, 80);
+    beyond |= length > 80;
+  }
+  EXPECT_TRUE(beyond);  // cold stages wait for their eighth acceptance
+}
+
 TEST(Chain, CoolingStaysBetweenItsLimits) {
   const auto variables = box(7, -1, 1);
   Options options;
