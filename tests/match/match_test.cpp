@@ -1,0 +1,160 @@
+#include "match/match.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/parallel.hpp"
+#include "match/align.hpp"
+#include "match/sweep.hpp"
+#include "match/verify.hpp"
+#include "planted_block.hpp"
+
+namespace rejoin::match {
+namespace {
+
+constexpr double kDegree = 0.017453292519943295;
+
+struct Pair {
+  testing::PlantedPair planted;
+  Fragment a;
+  Fragment b;
+  Rigid truth;  ///< relative to the meshes' origins
+};
+
+Pair make_pair(std::uint64_t seed) {
+  Pair pair{testing::planted_pair(seed), {}, {}, {}};
+  const Context context;
+  pair.a = prepare("a", pair.planted.a, context);
+  pair.b = prepare("b", pair.planted.b, context);
+  pair.truth = Rigid{glm::dmat3(1.0), -pair.planted.a.origin} * pair.planted.truth *
+               Rigid{glm::dmat3(1.0), pair.planted.b.origin};
+  return pair;
+}
+
+double worst_offset(const Rigid& pose, const Rigid& truth, const mesh::Mesh& b) {
+  double worst = 0;
+  for (const auto& v : b.vertices)
+    worst = std::max(worst, glm::distance(pose(glm::dvec3(v)), truth(glm::dvec3(v))));
+  return worst;
+}
+
+TEST(Match, FindsThePlantedCut) {
+  for (const std::uint64_t seed : {1U, 2U}) {
+    const Pair pair = make_pair(seed);
+    const Result result = match(pair.a, pair.b, Options{}, Context{});
+    ASSERT_FALSE(result.candidates.empty());
+    EXPECT_LT(angle_between(result.candidates.front().pose, pair.planted.truth), 1.0 * kDegree)
+        << "seed " << seed;
+    EXPECT_EQ(result.verdict, Verdict::Join) << "seed " << seed;
+    EXPECT_GT(result.evaluations, 1000);
+  }
+}
+
+TEST(Match, PlainBlockDoesNotJoin) {
+  // Flat sides of equal size everywhere, nothing that fits the cut: the paper's trivial solutions must not count.
+  const Pair pair = make_pair(4);
+  mesh::Mesh plain = testing::half_block(false, 48);
+  for (auto& v : plain.vertices) {
+    if (v.z < static_cast<float>(testing::kHalfZ)) v.z = -10.0F;
+  }
+  const Fragment other = prepare("plain", plain, Context{});
+  const Result result = match(pair.a, other, Options{}, Context{});
+  EXPECT_EQ(result.verdict, Verdict::NoJoin);
+}
+
+TEST(Match, ThreadsDoNotChangeTheResult) {
+  const Pair pair = make_pair(6);
+  std::vector<Result> results;
+  for (const int threads : {1, 2}) {
+    const ThreadLimit limit(threads);
+    results.push_back(match(pair.a, pair.b, Options{}, Context{}));
+  }
+  ASSERT_EQ(results[0].candidates.size(), results[1].candidates.size());
+  for (std::size_t k = 0; k < results[0].candidates.size(); ++k) {
+    EXPECT_EQ(results[0].candidates[k].score, results[1].candidates[k].score);
+    EXPECT_EQ(results[0].candidates[k].pose.translation, results[1].candidates[k].pose.translation);
+  }
+}
+
+TEST(Match, AsksForDirectionsAndLooksNowhereElse) {
+  const Pair pair = make_pair(7);
+  Options options;
+  options.constraint = Constraint::Direction;
+  options.directions_a = {pair.planted.direction_a};
+  options.directions_b = {pair.planted.direction_b};
+  const Result narrow = match(pair.a, pair.b, options, Context{});
+  const Result wide = match(pair.a, pair.b, Options{}, Context{});
+  ASSERT_FALSE(narrow.candidates.empty());
+  EXPECT_LT(angle_between(narrow.candidates.front().pose, pair.planted.truth), 1.0 * kDegree);
+  EXPECT_LT(narrow.evaluations, wide.evaluations);
+}
+
+TEST(Match, CancelledSearchReturnsAtOnceAndSaysSo) {
+  const Pair pair = make_pair(8);
+  Context context;
+  context.cancel();
+  const Result result = match(pair.a, pair.b, Options{}, context);
+  EXPECT_TRUE(result.cancelled);
+}
+
+TEST(Joint, AlignmentBringsADisturbedPoseBack) {
+  const Pair pair = make_pair(9);
+  const Joint joint(pair.a, pair.b);
+  const Rigid disturbed = Rigid{axis_rotation({0.6, 0, 0.8}, 3.0 * kDegree), {0.8, -0.6, 0.5}} * pair.truth;
+  const double tolerance = joint.tolerance();
+  const Rigid coarse = joint.align(disturbed, {20.0 * tolerance, 4.0 * tolerance, 20, 0});
+  const Rigid fine = joint.align(coarse, {6.0 * tolerance, 3.0 * tolerance, 12, 0});
+  // Half a degree at the block's corner is 0.4 mm; the samples lie 1.3 mm apart.
+  EXPECT_LT(worst_offset(fine, pair.truth, pair.b.surface), 0.4);
+}
+
+TEST(Joint, TrueJointHasItsContactAreaAndNoPenetration) {
+  const Pair pair = make_pair(10);
+  const Joint joint(pair.a, pair.b);
+  const Evidence evidence = joint.evidence(pair.truth, 0);
+  double cut = 0;  // area of the cut: sum of 1/cos over a fine grid, by differences
+  const double step = 0.1;
+  for (double x = -testing::kHalfX; x < testing::kHalfX; x += step) {
+    for (double y = -testing::kHalfY; y < testing::kHalfY; y += step) {
+      const double u = (testing::cut_height(x + step, y) - testing::cut_height(x, y)) / step;
+      const double v = (testing::cut_height(x, y + step) - testing::cut_height(x, y)) / step;
+      cut += std::sqrt(1 + u * u + v * v) * step * step;
+    }
+  }
+  EXPECT_NEAR(evidence.contact_area, cut, 0.1 * cut);  // samples at the rim have no partner
+  EXPECT_LT(evidence.penetration_area, 0.01 * cut);
+  EXPECT_NEAR(evidence.gap_median, 0.0, joint.tolerance());
+}
+
+TEST(Joint, PushedInPosePenetratesAndIsWeaker) {
+  const Pair pair = make_pair(10);
+  const Joint joint(pair.a, pair.b);
+  const glm::dvec3 inwards = -pair.planted.direction_a;
+  const Rigid pushed = Rigid{glm::dmat3(1.0), 12.0 * joint.tolerance() * inwards} * pair.truth;
+  const Evidence good = joint.evidence(pair.truth, 0);
+  const Evidence bad = joint.evidence(pushed, 0);
+  EXPECT_GT(bad.penetration_area, 10.0 * good.penetration_area);
+  EXPECT_LT(strength(bad), 0.5 * strength(good));
+}
+
+TEST(Joint, FlatSidesInContactGiveNoInformation) {
+  // The flat bottom of A against the flat top of B: contact, but nothing to explain.
+  const Pair pair = make_pair(11);
+  const glm::dmat3 over(1, 0, 0, 0, 1, 0, 0, 0, 1);
+  const Rigid b_on_top{over, {0, 0, 2 * testing::kHalfZ}};
+  const Rigid flat_contact = Rigid{glm::dmat3(1.0), -pair.planted.a.origin} * pair.planted.to_a *
+                             inverse(b_on_top) * inverse(pair.planted.to_b) *
+                             Rigid{glm::dmat3(1.0), pair.planted.b.origin};
+  const Joint joint(pair.a, pair.b);
+  const Evidence flat = joint.evidence(flat_contact, 0);
+  EXPECT_GT(flat.contact_area, 0.8 * 4 * testing::kHalfX * testing::kHalfY);
+  EXPECT_LT(strength(flat), 0.1 * strength(joint.evidence(pair.truth, 0)));
+}
+
+TEST(Score, GrowsWithStrengthBetweenZeroAndOne) {
+  EXPECT_LT(score_of(-50.0), 0.01);
+  EXPECT_GT(score_of(200.0), 0.99);
+  for (double s = -20; s < 60; s += 1) EXPECT_LE(score_of(s), score_of(s + 1));
+}
+
+}  // namespace
+}  // namespace rejoin::match

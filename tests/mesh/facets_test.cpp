@@ -1,0 +1,205 @@
+#include "mesh/facets.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "mesh/thickness.hpp"
+
+namespace rejoin::mesh {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// Closed box of the given full sizes, every side cut into cells x cells quads, z moved by `bump` on the top.
+template <class Bump>
+Mesh box(const glm::vec3& size, int cells, Bump bump) {
+  Mesh mesh;
+  const auto side = [&](glm::vec3 corner, glm::vec3 u, glm::vec3 v, bool top) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (int j = 0; j <= cells; ++j) {
+      for (int i = 0; i <= cells; ++i) {
+        glm::vec3 p = corner + u * (static_cast<float>(i) / static_cast<float>(cells)) +
+                      v * (static_cast<float>(j) / static_cast<float>(cells));
+        if (top) p.z += bump(p.x, p.y);
+        mesh.vertices.push_back(p);
+      }
+    }
+    const auto row = static_cast<std::uint32_t>(cells + 1);
+    for (std::uint32_t j = 0; j < static_cast<std::uint32_t>(cells); ++j) {
+      for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(cells); ++i) {
+        const std::uint32_t p = first + j * row + i;
+        mesh.faces.emplace_back(p, p + 1, p + row + 1);
+        mesh.faces.emplace_back(p, p + row + 1, p + row);
+      }
+    }
+  };
+  const glm::vec3 x(size.x, 0, 0);
+  const glm::vec3 y(0, size.y, 0);
+  const glm::vec3 z(0, 0, size.z);
+  side({0, 0, 0}, y, x, false);
+  side(z, x, y, true);
+  side({0, 0, 0}, x, z, false);
+  side(y, z, x, false);
+  side({0, 0, 0}, z, y, false);
+  side(x, y, z, false);
+  return mesh;
+}
+
+float flat(float /*x*/, float /*y*/) {
+  return 0.0F;
+}
+
+/// A quarter of a thick cylinder shell: outer radius 50, wall 5, height 60; a sherd with known fracture surfaces.
+Mesh shell(int around, int up) {
+  const auto point = [&](double angle, double r, double h) {
+    return glm::vec3(r * std::cos(angle), r * std::sin(angle), h);
+  };
+  Mesh mesh;
+  const auto sheet = [&](int n, int m, const auto& at, bool flip) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (int j = 0; j <= m; ++j) {
+      for (int i = 0; i <= n; ++i)
+        mesh.vertices.push_back(at(static_cast<double>(i) / n, static_cast<double>(j) / m));
+    }
+    const auto row = static_cast<std::uint32_t>(n + 1);
+    for (std::uint32_t j = 0; j < static_cast<std::uint32_t>(m); ++j) {
+      for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(n); ++i) {
+        const std::uint32_t p = first + j * row + i;
+        glm::uvec3 a(p, p + 1, p + row + 1);
+        glm::uvec3 b(p, p + row + 1, p + row);
+        if (flip) {
+          std::swap(a.y, a.z);
+          std::swap(b.y, b.z);
+        }
+        mesh.faces.push_back(a);
+        mesh.faces.push_back(b);
+      }
+    }
+  };
+  const double quarter = kPi / 2;
+  sheet(
+      around, up, [&](double s, double t) { return point(s * quarter, 50, 60 * t); }, false);
+  sheet(
+      around, up, [&](double s, double t) { return point(s * quarter, 45, 60 * t); }, true);
+  sheet(
+      around, 6, [&](double s, double t) { return point(s * quarter, 45 + 5 * t, 60); }, true);
+  sheet(
+      around, 6, [&](double s, double t) { return point(s * quarter, 45 + 5 * t, 0); }, false);
+  sheet(
+      6, up, [&](double s, double t) { return point(0, 45 + 5 * s, 60 * t); }, false);
+  sheet(
+      6, up, [&](double s, double t) { return point(quarter, 45 + 5 * s, 60 * t); }, true);
+  return mesh;
+}
+
+TEST(Samples, DensityDoesNotDependOnTheTessellation) {
+  // The box's top has 16 times as many triangles an area as a coarse box's; both get the same samples an area.
+  const Mesh fine = box({40, 30, 20}, 40, flat);
+  const Mesh coarse = box({40, 30, 20}, 10, flat);
+  const auto few = sample_surface(coarse, 5000);
+  const auto many = sample_surface(fine, 5000);
+  EXPECT_NEAR(static_cast<double>(few.size()), static_cast<double>(many.size()),
+              0.02 * static_cast<double>(few.size()));
+  // Planes along the grid's axes fill 1 cell for every cell's face of area, others up to 1.7: the count allows for 1.5.
+  EXPECT_GT(few.size(), 3000U);
+  EXPECT_LT(few.size(), 6000U);
+}
+
+TEST(Samples, EveryPartOfAPlaneIsCovered) {
+  const Mesh mesh = box({40, 30, 20}, 10, flat);
+  const auto samples = sample_surface(mesh, 4000);
+  // On a grid of twice the spacing no cell of the top may be empty.
+  std::set<std::pair<int, int>> seen;
+  const double cell = 2.0 * samples.spacing;
+  for (const auto& p : samples.points) {
+    if (p.z > 19.99F) seen.insert({static_cast<int>(p.x / cell), static_cast<int>(p.y / cell)});
+  }
+  const auto cells = static_cast<std::size_t>(40.0 / cell) * static_cast<std::size_t>(30.0 / cell);
+  EXPECT_GE(seen.size(), cells);
+}
+
+TEST(Facets, BoxHasSixSidesWithTheirAreasAndNormals) {
+  const auto s = segment(box({40, 30, 20}, 20, flat));
+  ASSERT_EQ(s.facets.size(), 6U);
+  const double areas[] = {1200, 1200, 800, 800, 600, 600};
+  for (std::size_t k = 0; k < 6; ++k) {
+    // A facet gives up at most one row of samples at its border, and takes as much from its neighbours.
+    EXPECT_NEAR(s.facets[k].area, areas[k], 0.12 * areas[k]);
+    const glm::dvec3 n = glm::abs(s.facets[k].normal);
+    EXPECT_GT(std::max({n.x, n.y, n.z}), std::cos(2.0 * kPi / 180));
+  }
+}
+
+TEST(Facets, RoughSideIsTheRoughest) {
+  const auto rough = [](float x, float y) {
+    return 0.25F * std::sin(2.1F * x + 0.3F) * std::sin(1.7F * y + x);
+  };
+  const auto s = segment(box({40, 30, 20}, 40, rough));
+  const Facet* roughest = &s.facets.front();
+  for (const auto& facet : s.facets) {
+    if (facet.roughness > roughest->roughness) roughest = &facet;
+  }
+  EXPECT_GT(roughest->normal.z, 0.9);
+}
+
+TEST(Facets, ShellHasItsWallThickness) {
+  const auto s = segment(shell(90, 60));
+  EXPECT_NEAR(s.wall_thickness, 5.0, 0.15);  // the rays' median over a wall of exactly 5
+}
+
+TEST(Facets, ShellsFractureSurfaceIsItsFourNarrowSides) {
+  const auto s = segment(shell(90, 60));
+  int fracture = 0;
+  double area = 0;
+  for (const auto& facet : s.facets) {
+    if (!facet.fracture) continue;
+    ++fracture;
+    area += facet.area;
+  }
+  // Two straight ends (5 x 60) and two quarter rings (pi/4 (50^2 - 45^2)).
+  const double truth = 2 * 300 + 2 * kPi / 4 * (2500 - 2025);
+  EXPECT_EQ(fracture, 4);
+  EXPECT_NEAR(area, truth,
+              0.25 * truth);  // a row of samples at either edge of a 5 mm strip may go either way
+}
+
+TEST(Facets, NothingDependsOnTheUnit) {
+  const Mesh mm = shell(60, 40);
+  Mesh metres = mm;
+  for (auto& v : metres.vertices) v *= 0.001F;
+  const auto a = segment(mm);
+  const auto b = segment(metres);
+  ASSERT_EQ(a.facets.size(), b.facets.size());
+  EXPECT_NEAR(a.wall_thickness, 1000 * b.wall_thickness, 1e-3);
+  for (std::size_t k = 0; k < a.facets.size(); ++k) {
+    EXPECT_EQ(a.facets[k].fracture, b.facets[k].fracture);
+    EXPECT_NEAR(a.facets[k].area, 1e6 * b.facets[k].area, 0.05 * a.facets[k].area);
+  }
+}
+
+TEST(Facets, EveryFaceOfASideBelongsToItsFacet) {
+  const Mesh mesh = box({40, 30, 20}, 20, flat);
+  const auto s = segment(mesh);
+  const auto facets = facet_of_faces(s, mesh);
+  const auto normals = face_normals(mesh);
+  std::size_t right = 0;
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    right += facets[f] >= 0 &&
+             glm::dot(glm::dvec3(normals[f]), s.facets[static_cast<std::size_t>(facets[f])].normal) > 0.9;
+  }
+  EXPECT_GT(right, facets.size() * 95 / 100);
+}
+
+TEST(Thickness, SolidBoxHasNoWall) {
+  const Mesh mesh = box({40, 30, 20}, 20, flat);
+  EXPECT_EQ(segment(mesh).wall_thickness, 0.0);
+}
+
+TEST(Thickness, PlateHasItsThickness) {
+  EXPECT_NEAR(segment(box({60, 50, 4}, 30, flat)).wall_thickness, 4.0, 0.1);
+}
+
+}  // namespace
+}  // namespace rejoin::mesh
