@@ -42,7 +42,7 @@ double robust_size(const std::vector<const DepthMap*>& maps, double tail, double
 void draw_panel(Image& sheet, int x, int y, const std::string& caption, const DepthMap& map,
                 const MapWindow& window, double size, bool with_bar) {
   const ColourBar bar{gap_colour, -size, size, true, ""};
-  const int zoom = std::max(1, kPanel / std::max(window.width, window.height));
+  const double zoom = std::max(1.0, static_cast<double>(kPanel) / std::max(window.width, window.height));
   const Image pixels = map_pixels(map, window, zoom, bar);
   draw_text(sheet, x, y - 8, caption, {12, kInk});
   fill(sheet, {x, y, kPanel, kPanel}, {232, 233, 236});

@@ -82,8 +82,8 @@ std::string difference_lines(const match::RenderingDifference& difference) {
 }
 
 std::string agreement_line(const char* name, const match::Agreement& agreement) {
-  return fmt::format("  {:<28}{:>12}{:>12}{:>11.1f} %{:>12}\n", name, short_number(agreement.mean),
-                     short_number(agreement.max), 100 * agreement.relative,
+  return fmt::format("  {:<28}{:>12}{:>12}{:>10} %{:>12}\n", name, short_number(agreement.mean),
+                     short_number(agreement.max), short_number(100 * agreement.relative),
                      agreement.poses > 1 ? fmt::format("{:.4f}", agreement.correlation) : "-");
 }
 
@@ -100,7 +100,7 @@ std::string compare_table(const Comparison& comparison) {
   text += "\nfrom drawing\n" + difference_lines(comparison.drawing);
   text += "\nfrom the level of detail\n" + difference_lines(comparison.detail);
   text += fmt::format("\nover {} poses around it, slope\n", comparison.grid.size());
-  text += fmt::format("  {:<28}{:>12}{:>12}{:>13}{:>12}\n", "|difference|", "mean", "largest", "of the mean",
+  text += fmt::format("  {:<28}{:>12}{:>12}{:>12}{:>12}\n", "|difference|", "mean", "largest", "of the mean",
                       "correlation");
   text += agreement_line("drawing", comparison.drawing_agreement);
   text += agreement_line("level of detail", comparison.detail_agreement);

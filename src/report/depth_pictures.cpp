@@ -38,13 +38,14 @@ MapWindow covered_window(const std::vector<const zbuffer::DepthMap*>& maps, int 
   return {left, low, std::min(width, right + 1 + margin) - left, std::min(height, high + 1 + margin) - low};
 }
 
-Image map_pixels(const zbuffer::DepthMap& map, const MapWindow& window, int zoom, const ColourBar& bar) {
-  Image image(window.width * zoom, window.height * zoom, kNothing);
+Image map_pixels(const zbuffer::DepthMap& map, const MapWindow& window, double zoom, const ColourBar& bar) {
+  Image image(static_cast<int>(window.width * zoom), static_cast<int>(window.height * zoom), kNothing);
   const double centre = bar.diverging ? 0.0 : bar.low;
   const double range = bar.high - centre;
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
-      const float value = map.at(window.x + x / zoom, window.y + window.height - 1 - y / zoom);
+      const float value = map.at(window.x + static_cast<int>(x / zoom),
+                                 window.y + window.height - 1 - static_cast<int>(y / zoom));
       if (!std::isnan(value)) image.at(x, y) = bar.colour((value - centre) / range);
     }
   }

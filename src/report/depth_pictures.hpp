@@ -22,8 +22,8 @@ struct MapWindow {
 MapWindow covered_window(const std::vector<const zbuffer::DepthMap*>& maps, int margin);
 
 /// The pixels of a map in colours, v upwards, background pale.
-/// \param zoom  picture pixels a map pixel
-Image map_pixels(const zbuffer::DepthMap& map, const MapWindow& window, int zoom, const ColourBar& bar);
+/// \param zoom  picture pixels a map pixel, >= 1
+Image map_pixels(const zbuffer::DepthMap& map, const MapWindow& window, double zoom, const ColourBar& bar);
 
 /// How a map is coloured and labelled.
 struct MapPicture {

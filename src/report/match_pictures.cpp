@@ -106,8 +106,9 @@ Image draw_difference(const JointMaps& maps, const MapWindow& window) {
                                  short_number(static_cast<double>(maps.score.error) * maps.a.width),
                                  maps.score.overlap, short_number(maps.score.error));
   style.unit = "[slope]";
+  constexpr double kLeastScale = 0.02;  // below that it is rounding, not shape
   const double high = robust_range(maps.difference, 0.05).second;
-  style.bar = {difference_colour, 0, round_up(std::max(1e-6, high)), false, ""};
+  style.bar = {difference_colour, 0, round_up(std::max(kLeastScale, high)), false, ""};
   style.window = window;
   return draw_map(maps.difference, style);
 }
