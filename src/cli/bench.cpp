@@ -2,13 +2,13 @@
 #include <fmt/core.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
 
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
 #include "cli/files.hpp"
+#include "cli/json_values.hpp"
 #include "zbuffer/benchmark.hpp"
 
 namespace rejoin::cli {
@@ -64,7 +64,7 @@ std::string to_json(const Rows& rows) {
                     {"renderer", row.renderer}});
   }
   const nlohmann::ordered_json json = {{"schema", "rejoin.bench/1"}, {"machine", machine()}, {"rows", list}};
-  return json.dump(2) + "\n";
+  return text_of(json);
 }
 
 class BenchCommand final : public Command {

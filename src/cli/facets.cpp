@@ -86,7 +86,7 @@ std::string facets_json(const match::Fragment& fragment) {
                              {"diameter", fragment.diameter},
                              {"wall_thickness", fragment.facets.wall_thickness},
                              {"facets", list}};
-  return json.dump(2) + "\n";
+  return text_of(json);
 }
 
 class FacetsCommand final : public Command {

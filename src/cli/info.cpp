@@ -1,12 +1,12 @@
 /// rejoin info
 #include <fmt/core.h>
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
 
 #include "cli/command.hpp"
 #include "cli/files.hpp"
+#include "cli/json_values.hpp"
 #include "core/parallel.hpp"
 #include "core/version.hpp"
 #include "zbuffer/scorer.hpp"
@@ -47,7 +47,7 @@ class InfoCommand final : public Command {
                                          {"threads", thread_count()},
                                          {"cores", std::thread::hardware_concurrency()},
                                          {"backends", list}};
-    return json.dump(2) + "\n";
+    return text_of(json);
   }
 
   std::optional<std::string> json_;

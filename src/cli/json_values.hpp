@@ -2,24 +2,23 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 
 #include "core/rigid.hpp"
 
 namespace rejoin::cli {
 
-inline nlohmann::ordered_json to_json(const glm::dvec3& v) {
-  return {v.x, v.y, v.z};
-}
+nlohmann::ordered_json to_json(const glm::dvec3& v);
 
 /// 4 x 4, row major.
-inline nlohmann::ordered_json to_json(const Rigid& pose) {
-  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-  for (int row = 0; row < 3; ++row) {
-    rows.push_back(
-        {pose.rotation[0][row], pose.rotation[1][row], pose.rotation[2][row], pose.translation[row]});
-  }
-  rows.push_back({0.0, 0.0, 0.0, 1.0});
-  return rows;
-}
+nlohmann::ordered_json to_json(const Rigid& pose);
+
+/// The inverse of to_json(Rigid); nullopt if it is no 4 x 4 matrix of numbers or no proper rigid motion (to 1e-4, as
+/// matrices come with few digits; the rotation is then made orthonormal).
+std::optional<Rigid> rigid_from_json(const nlohmann::ordered_json& rows);
+
+/// The file's text.  A path may be no UTF-8, but JSON must be: such bytes are replaced.
+std::string text_of(const nlohmann::ordered_json& json);
 
 }  // namespace rejoin::cli

@@ -87,7 +87,7 @@ std::string match_json(const match::Fragment& a, const match::Fragment& b, const
       {"backend", {{"name", zbuffer::name_of(result.backend)}, {"renderer", result.renderer}}},
       {"warnings", result.warnings},
       {"version", kVersion}};
-  return json.dump(2) + "\n";
+  return text_of(json);
 }
 
 }  // namespace rejoin::cli

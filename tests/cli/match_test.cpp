@@ -6,23 +6,15 @@
 
 #include <nlohmann/json.hpp>
 
-#include "../match/planted_block.hpp"
-#include "mesh/save.hpp"
-#include "run_program.hpp"
+#include "planted_files.hpp"
 
 namespace rejoin::cli::testing {
 namespace {
 
 using nlohmann::ordered_json;
 
-/// Two halves of a block, saved.
-class MatchCommand : public ::testing::Test {
+class MatchCommand : public ::testing::Test, protected PlantedFiles {
  protected:
-  void SetUp() override {
-    mesh::save(a, pair.a);
-    mesh::save(b, pair.b);
-  }
-
   /// What a run writes with --json.
   ordered_json result_of(std::vector<std::string> arguments) {
     arguments.insert(arguments.end(), {"--json", json});
@@ -43,12 +35,6 @@ class MatchCommand : public ::testing::Test {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
   }
-
-  const TemporaryFolder folder;
-  const match::testing::PlantedPair pair = match::testing::planted_pair(7, 32);
-  const std::string a = folder / "a.ply";
-  const std::string b = folder / "b.ply";
-  const std::string json = folder / "match.json";
 };
 
 Rigid pose_of(const ordered_json& rows) {

@@ -60,6 +60,7 @@ INSTANTIATE_TEST_SUITE_P(
             "MaterialWithoutAxes", {"match", "a.ply", "b.ply", "--constraint", "material"}, "--material-a"},
         WrongUse{"NegativeFacet", {"match", "a.ply", "b.ply", "--facets-a", "-1"}, "--facets-a"},
         WrongUse{"OptionWithoutValue", {"match", "a.ply", "b.ply", "--json"}, "--json"},
+        WrongUse{"CompareWithoutPose", {"compare", "a.ply", "b.ply"}, "--pose is required"},
         WrongUse{"FacetsNotPly", {"facets", "a.ply", "--ply", "a.obj"}, "--ply"},
         WrongUse{"BenchResolution", {"bench", "--resolution", "1"}, "--resolution"}),
     [](const auto& info) { return std::string(info.param.name); });

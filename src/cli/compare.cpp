@@ -1,0 +1,92 @@
+/// rejoin compare
+#include "match/compare.hpp"
+
+#include <fmt/core.h>
+
+#include <fstream>
+#include <optional>
+
+#include "cli/arguments.hpp"
+#include "cli/command.hpp"
+#include "cli/files.hpp"
+#include "cli/fragment.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/json_values.hpp"
+#include "report/compare_report.hpp"
+
+namespace rejoin::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// The 4 x 4 matrix of a file: rejoin match's JSON, or the bare rows.
+/// \throws IoError it cannot be read   \throws InputError it holds no proper rigid motion
+Rigid read_pose(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw IoError(path, "cannot be read", "give the JSON of rejoin match");
+  const ordered_json json = ordered_json::parse(file, nullptr, false);
+  if (json.is_discarded()) throw InputError(path, "is no JSON", "give the JSON of rejoin match");
+  const ordered_json& rows = json.is_object() && json.contains("pose") ? json["pose"] : json;
+  const std::optional<Rigid> pose = rigid_from_json(rows);
+  if (!pose) {
+    throw InputError(path, "\"pose\" is no 4 x 4 matrix of a rotation and a shift",
+                     "give the JSON of rejoin match");
+  }
+  return *pose;
+}
+
+class CompareCommand final : public Command {
+ public:
+  void define(CLI::App& app) override {
+    app.add_option("A", path_a_, "scan: ply, obj, stl, off, gltf, glb or drc")->required()->group("Input");
+    app.add_option("B", path_b_, "scan of the other fragment")->required()->group("Input");
+    app.add_option("--pose", pose_, "JSON with \"pose\", B's coordinates to A's")
+        ->type_name("FILE")
+        ->required()
+        ->group("Input");
+    app.add_option("--json", json_, "write all figures")->type_name("FILE")->group("Output");
+    app.add_option("--out", out_, "write compare.png and compare.json")->type_name("DIR")->group("Output");
+    app.option_defaults()->group("Measurement");
+    app.add_option("--resolution", options_.resolution, "pixels across a depth map, 8 to 2048 (128)")
+        ->type_name("N")
+        ->check(in_range(8, 2048));
+    add_choice(app, "--backend", options_.drawing, backend_choices(), "what draws");
+    app.add_option("--steps", options_.steps, "poses each way in 5 directions, 0 to 3 (1)")
+        ->type_name("N")
+        ->check(in_range(0, 3));
+  }
+
+  ExitCode run(Console& console, Context& context) override {
+    require_two_files(path_a_, path_b_);
+    if (json_) require_writable_file(*json_);
+    if (out_) require_writable_folder(*out_);
+    const Rigid pose = read_pose(pose_);
+    const match::Fragment a = load_fragment(path_a_, console, context);
+    const match::Fragment b = load_fragment(path_b_, console, context);
+    const match::Comparison comparison = match::compare(a, b, pose, options_, context);
+    if (json_) write_file(*json_, report::compare_json(comparison, path_a_, path_b_));
+    console.result(report::compare_table(comparison));
+    if (context.cancelled()) return kInterrupted;
+    if (out_) {
+      const NothingToSave guard;
+      report::write_compare_outputs(*out_, comparison, path_a_, path_b_);
+    }
+    return kDone;
+  }
+
+ private:
+  std::string path_a_;
+  std::string path_b_;
+  std::string pose_;
+  std::optional<std::string> json_;
+  std::optional<std::string> out_;
+  match::CompareOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_compare_command() {
+  return std::make_unique<CompareCommand>();
+}
+
+}  // namespace rejoin::cli

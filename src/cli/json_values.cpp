@@ -1,0 +1,73 @@
+#include "cli/json_values.hpp"
+
+#include <cmath>
+
+namespace rejoin::cli {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+constexpr double kTolerance = 1e-4;
+
+bool is_matrix(const ordered_json& rows) {
+  if (!rows.is_array() || rows.size() != 4) return false;
+  for (const ordered_json& row : rows) {
+    if (!row.is_array() || row.size() != 4) return false;
+    for (const ordered_json& value : row) {
+      if (!value.is_number() || !std::isfinite(value.get<double>())) return false;
+    }
+  }
+  return rows[3] == ordered_json({0.0, 0.0, 0.0, 1.0});
+}
+
+bool is_rotation(const glm::dmat3& matrix) {
+  const glm::dmat3 product = glm::transpose(matrix) * matrix;
+  for (int column = 0; column < 3; ++column) {
+    for (int row = 0; row < 3; ++row) {
+      if (std::abs(product[column][row] - (row == column ? 1.0 : 0.0)) > kTolerance) return false;
+    }
+  }
+  return glm::determinant(matrix) > 0.0;
+}
+
+/// Gram-Schmidt.
+glm::dmat3 orthonormal(const glm::dmat3& matrix) {
+  const glm::dvec3 x = glm::normalize(matrix[0]);
+  const glm::dvec3 y = glm::normalize(matrix[1] - glm::dot(matrix[1], x) * x);
+  return {x, y, glm::cross(x, y)};
+}
+
+}  // namespace
+
+ordered_json to_json(const glm::dvec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+ordered_json to_json(const Rigid& pose) {
+  ordered_json rows = ordered_json::array();
+  for (int row = 0; row < 3; ++row) {
+    rows.push_back(
+        {pose.rotation[0][row], pose.rotation[1][row], pose.rotation[2][row], pose.translation[row]});
+  }
+  rows.push_back({0.0, 0.0, 0.0, 1.0});
+  return rows;
+}
+
+std::optional<Rigid> rigid_from_json(const ordered_json& rows) {
+  if (!is_matrix(rows)) return std::nullopt;
+  Rigid pose;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) pose.rotation[column][row] = rows[row][column].get<double>();
+    pose.translation[row] = rows[row][3].get<double>();
+  }
+  if (!is_rotation(pose.rotation)) return std::nullopt;
+  pose.rotation = orthonormal(pose.rotation);
+  return pose;
+}
+
+std::string text_of(const ordered_json& json) {
+  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace rejoin::cli
