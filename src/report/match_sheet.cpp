@@ -168,7 +168,7 @@ std::vector<double> histogram(const Joint& joint, int count) {
 
 void draw_gap_legend(Image& sheet, const Joint& joint, const Area& area) {
   frame(sheet, area, "Gap [mesh units]");
-  const int bar_x = area.x + 170;
+  const int bar_x = area.x + 152;
   const Area bar{bar_x, area.y + 74, 30, area.height - 216};
   draw_text(sheet, area.x + 12, bar.y - 16, "apart", {12, {8, 45, 112}});
   draw_text(sheet, area.x + 12, bar.y + bar.height + 24, "overlapping", {12, {140, 10, 38}});

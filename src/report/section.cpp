@@ -160,7 +160,7 @@ Image draw_section(const Joint& joint, int width, int height) {
   constexpr double kStrip = 3;  // longer than this times its width: a wall's edge, cut through the wall
   const bool strip = joint.length > kStrip * joint.width;
   const Plane plane{contact_point(joint), joint.normal, strip ? joint.across : joint.along};
-  const double seen = strip ? 3 * joint.width : 1.15 * joint.length;  // from bottom to top
+  const double seen = strip ? 2.4 * joint.width : 1.15 * joint.length;  // from bottom to top
   const double least = 1e-3 * mesh::diameter(joint.a);
   Window window{{0, 0}, height / std::max(seen, least), width, height};
   if (joint.contact.area <= 0) window.pixels = width / (2.5 * std::max(mesh::diameter(joint.a), least));
