@@ -1,0 +1,63 @@
+/// The sample fragments of meshes/, found with default settings.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/json_values.hpp"
+#include "mesh/load.hpp"
+#include "run_program.hpp"
+
+namespace rejoin::cli::testing {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct Sample {
+  const char* name;
+  const char* a;
+  const char* b;
+};
+
+void PrintTo(const Sample& sample, std::ostream* out) {
+  *out << sample.name;
+}
+
+class SampleTest : public ::testing::TestWithParam<Sample> {};
+
+Rigid pose_in(const std::string& path) {
+  const auto pose = rigid_from_json(ordered_json::parse(read_file(path))["pose"]);
+  EXPECT_TRUE(pose.has_value()) << path;
+  return pose.value_or(Rigid());
+}
+
+/// Mean distance by which a pose puts the vertices wrong.
+double mean_distance(const mesh::Mesh& mesh, const Rigid& pose, const Rigid& truth) {
+  double sum = 0;
+  for (const glm::vec3& vertex : mesh.vertices) {
+    const glm::dvec3 point = mesh.origin + glm::dvec3(vertex);
+    sum += glm::distance(pose(point), truth(point));
+  }
+  return sum / static_cast<double>(mesh.vertices.size());
+}
+
+// The limits by which the project counts a joint as found: 5 degrees, and 2 % of the diameter (here of B, the stricter).
+TEST_P(SampleTest, IsFoundWithDefaultSettings) {
+  const std::string folder = std::string(REJOIN_SOURCE_DIR "/meshes/") + GetParam().name + "/";
+  const std::string path_b = folder + GetParam().b;
+  const TemporaryFolder temporary;
+  const Finished finished = run({"match", folder + GetParam().a, path_b, "--json", temporary / "match.json"});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  const Rigid pose = pose_in(temporary / "match.json");
+  const Rigid truth = pose_in(folder + "truth.json");
+  const mesh::Mesh b = mesh::load(path_b).mesh;
+  EXPECT_LT(glm::degrees(angle_between(pose, truth)), 5.0);
+  EXPECT_LT(mean_distance(b, pose, truth), 0.02 * mesh::diameter(b));
+}
+
+INSTANTIATE_TEST_SUITE_P(Meshes, SampleTest,
+                         ::testing::Values(Sample{"block", "a.drc", "b.drc"},
+                                           Sample{"bowl", "a.drc", "b.drc"}, Sample{"pot", "a.ply", "b.ply"}),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+}  // namespace
+}  // namespace rejoin::cli::testing
