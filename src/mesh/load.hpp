@@ -16,12 +16,16 @@ struct Loaded {
   std::vector<std::string> warnings;  ///< one line each: points without normals, faces dropped, ...
 };
 
-/// Reads a mesh or an oriented cloud by its extension (any case) and cleans it: equal vertices welded,
-/// degenerate and duplicate faces dropped, unused vertices of a mesh dropped, cloud normals made unit length
-/// (estimated and oriented outwards, with a warning, where the file has none). \throws IoError     the file
-/// cannot be opened or is shorter than its header promises \throws InputError  unknown extension, not such a
-/// file, NaN or infinite coordinate (names its vertex), index out of
-///                     range (names its face), nothing left after clean-up, no area
+/// Reads a mesh or an oriented cloud by its extension (any case) and cleans it.
+///
+/// Equal vertices are welded (exactly equal ones: nothing depends on the scale), degenerate and duplicate
+/// faces dropped, vertices of no face dropped, faces wound against their neighbours or a closed surface that
+/// is inside out turned, cloud normals made unit length (estimated and oriented outwards where the file has
+/// none).  Whatever changes the surface is said in a warning.  Non-manifold and open meshes load whole.
+///
+/// \throws IoError     the file cannot be opened or ends before what its header promises
+/// \throws InputError  unknown extension, empty or not such a file, NaN or infinite coordinate (names its
+///                     vertex), index out of range (names its face), nothing left after clean-up, no area
 Loaded load(const std::filesystem::path& path);
 
 }  // namespace rejoin::mesh

@@ -17,8 +17,10 @@ struct Placed {
   Rigid pose;        ///< file coordinates -> common frame
 };
 
-/// Writes one mesh in its file coordinates; the extension (.ply, .obj, .glb, .drc) chooses the format.  The
-/// file appears whole or not at all (written beside and renamed). \throws InputError unknown extension
+/// Writes one mesh in its file coordinates; the extension (.ply, .obj, .glb, .drc) chooses the
+/// format.  The file appears whole or not at all (written beside and renamed).
+///
+/// \throws InputError unknown extension
 /// \throws IoError the file cannot be written
 void save(const std::filesystem::path& path, const Mesh& mesh);
 

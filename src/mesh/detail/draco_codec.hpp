@@ -19,9 +19,10 @@ struct DracoAttributes {
 /// \throws InputError not Draco data, damaged, or without positions
 Soup decode_draco(std::string_view bytes, const std::string& name, const DracoAttributes& attributes = {});
 
-/// Draco data of triangles (or of a cloud, without faces).  Points near the origin are quantised to 2^-20 of
-/// the box's longest side; far from the origin they are stored whole, in double precision. \throws IoError
-/// the encoder failed
+/// Draco data of triangles (or of a cloud, without faces).  Points near the origin are quantised to
+/// 2^-20 of the box's longest side; far from the origin they are stored whole, in double precision.
+///
+/// \throws IoError the encoder failed
 std::string encode_draco(const Soup& soup, bool far_from_origin, const std::string& name);
 
 }  // namespace rejoin::mesh::detail

@@ -10,6 +10,7 @@
 #include "mesh/detail/colour.hpp"
 #include "mesh/detail/draco_codec.hpp"
 #include "mesh/detail/gltf_model.hpp"
+#include "mesh/detail/text.hpp"
 
 namespace rejoin::mesh::detail {
 namespace {
@@ -228,8 +229,8 @@ class GltfReader {
     table.values.reserve(accessor.count * table.width);
     for (std::size_t i = 0; i < accessor.count; ++i) {
       const unsigned char* at = bytes.data() + accessor.byteOffset + i * step;
-      for (int k = 0; k < width; ++k) {
-        table.values.push_back(component_at(at + k * component, accessor.componentType, accessor.normalized));
+      for (std::size_t k = 0; k < table.width; ++k, at += component) {
+        table.values.push_back(component_at(at, accessor.componentType, accessor.normalized));
       }
     }
     return table;
@@ -253,7 +254,7 @@ class GltfReader {
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t corner = part.corners[i + k];
         // Out of range within the part must stay so in the whole.
-        face[k] = corner < part.points.size() ? first + corner : 0xFFFFFFFFU;
+        face[k] = corner < part.points.size() ? first + corner : kNoPoint;
       }
       soup_.add_triangle(face[0], face[mirrored ? 2 : 1], face[mirrored ? 1 : 2]);
     }

@@ -59,7 +59,7 @@ class GlbBuilder {
 
  private:
   static double& at(std::vector<double>& matrix, int column, int row) {
-    return matrix[static_cast<std::size_t>(4 * column + row)];
+    return matrix[4 * static_cast<std::size_t>(column) + static_cast<std::size_t>(row)];
   }
 
   /// Appends rows to the buffer; returns the number of the accessor for them.

@@ -22,10 +22,13 @@ struct Neighbourhoods {
   double spacing = 0;  ///< median distance of neighbouring points, mesh units
 };
 
-/// Delaunay star of every point in its tangent plane, to which neighbours are turned down at their true
-/// distance, so that a sharp edge unrolls.  Neighbours count only if a surface can lead to them: the opposite
-/// side of a thin wall does not. \pre cloud.is_cloud() with unit normals \source Gopi, Krishnan, Silva 2000,
-/// "Surface reconstruction based on lower dimensional localized Delaunay triangulation"
+/// Delaunay star of every point in its tangent plane, to which neighbours are turned down at their
+/// true distance, so that a sharp edge unrolls.  Neighbours count only if a surface can lead to
+/// them: the opposite side of a thin wall does not.
+///
+/// \pre cloud.is_cloud() with unit normals
+/// \source Gopi, Krishnan, Silva 2000, "Surface reconstruction based on lower dimensional localized
+///   Delaunay triangulation"
 Neighbourhoods local_delaunay(const Mesh& cloud);
 
 }  // namespace rejoin::mesh::detail

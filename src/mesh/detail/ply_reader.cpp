@@ -10,10 +10,10 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
-#include <limits>
 
 #include "core/error.hpp"
 #include "mesh/detail/ply_header.hpp"
+#include "mesh/detail/text.hpp"
 
 namespace rejoin::mesh::detail {
 namespace {
@@ -113,9 +113,7 @@ class AsciiValues {
   const char* end_;
 };
 
-/// An index that no point has, for negative and fractional ones: the common check then names the face.
-constexpr std::uint32_t kNoPoint = std::numeric_limits<std::uint32_t>::max();
-
+/// kNoPoint for negative and fractional indices.
 std::uint32_t to_index(double value) {
   return value >= 0 && value < kNoPoint && value == std::floor(value) ? static_cast<std::uint32_t>(value)
                                                                       : kNoPoint;
