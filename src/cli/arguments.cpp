@@ -71,6 +71,7 @@ glm::dvec3 parse_direction(const std::string& option, const std::string& text) {
 
 std::vector<glm::dvec3> parse_directions(const std::string& option, const std::vector<std::string>& texts) {
   std::vector<glm::dvec3> directions;
+  directions.reserve(texts.size());
   for (const std::string& text : texts) directions.push_back(parse_direction(option, text));
   return directions;
 }

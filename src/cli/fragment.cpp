@@ -19,7 +19,7 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
 
 mesh::Mesh load_scan(const std::string& path, Console& console) {
   mesh::Loaded loaded = mesh::load(path);
-  for (const std::string& warning : loaded.warnings) console.warning(path + ": " + warning);
+  for (const std::string& warning : loaded.warnings) console.warning(fmt::format("{}: {}", path, warning));
   const bool cloud = loaded.mesh.is_cloud();
   const std::size_t count = cloud ? loaded.mesh.vertices.size() : loaded.mesh.faces.size();
   if (count < kLeast) {
