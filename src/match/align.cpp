@@ -197,7 +197,7 @@ Joint::Joint(const Fragment& a, const Fragment& b) : impl_(std::make_unique<Impl
   d.thickness = ta > 0 && tb > 0 ? std::min(ta, tb) : 0.0;
   d.spacing = std::max(a.facets.samples.spacing, b.facets.samples.spacing);
   const double scan = std::max(a.resolution, b.resolution);
-  d.tolerance = std::max(d.thickness > 0 ? 0.05 * d.thickness : 0.15 * d.spacing, 0.6 * scan);
+  d.tolerance = std::max(d.thickness > 0 ? 0.05 * d.thickness : 0.15 * d.spacing, 0.3 * scan);
   d.noise = 0.15 * scan;
   d.patch = std::max(0.5 * d.thickness, 2.5 * d.spacing);
   const double edge = std::max(0.2 * d.thickness, 1.2 * d.spacing);

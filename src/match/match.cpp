@@ -17,7 +17,7 @@ constexpr double kDegree = 0.017453292519943295;
 constexpr double kFacetSpread_deg =
     25.0;  // how far a facet's mean normal may lie from the direction that a user sees
 
-constexpr int kQuickSamples = 2500;  // of B's broken surface while there are many hypotheses
+constexpr int kQuickSamples = 1500;  // of B's broken surface while there are many hypotheses
 
 /// A pose on its way through the stages; relative to the meshes' origins.
 struct Hypothesis {
@@ -168,10 +168,10 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
 
   const double tolerance = joint.tolerance();
   context.report("align", 0.5);
-  refine(hypotheses, joint, {12.0 * tolerance, 4.0 * tolerance, 8, 300}, context);
+  refine(hypotheses, joint, {24.0 * tolerance, 4.0 * tolerance, 16, 300}, context);
   const double diameter = std::max(a.diameter, b.diameter);
   hypotheses = distinct(hypotheses, b, diameter, static_cast<std::size_t>(2 * options.max_candidates));
-  if (!context.cancelled()) refine(hypotheses, joint, {6.0 * tolerance, 3.0 * tolerance, 12, 0}, context);
+  if (!context.cancelled()) refine(hypotheses, joint, {12.0 * tolerance, 3.0 * tolerance, 20, 0}, context);
   hypotheses = distinct(hypotheses, b, diameter, static_cast<std::size_t>(options.max_candidates));
   clock.lap("align");
 

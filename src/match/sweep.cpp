@@ -14,8 +14,9 @@ constexpr double kAcross = 7.0;          // pixels across a strip
 constexpr double kMapSide = 36.0;        // pixels across a plate
 constexpr double kElongated = 3.0;       // length over mean width from which a facet is a strip
 constexpr double kStripTurn = 0.35;      // strips lie along each other within 20 degrees
+constexpr double kFinest = 0.7;          // of the scans' resolution: below it there is nothing to see
 constexpr double kCoarser = 2.0;         // pitch of the first look at plates
-constexpr std::size_t kSecondLook = 48;  // coarse peaks of a pair of fragments that are looked at finely
+constexpr std::size_t kSecondLook = 64;  // coarse peaks of a pair of fragments that are looked at finely
 constexpr double kSmallFacet = 0.02;     // of the largest facet's area: too small to tell
 
 double mean_width(const FacetPatch& patch) {
@@ -29,7 +30,12 @@ bool is_strip(const FacetPatch& patch) {
 double pitch_for(const FacetPatch& a, const FacetPatch& b, double resolution) {
   const double across = std::min(mean_width(a), mean_width(b)) / kAcross;
   const double side = std::sqrt(std::min(a.area, b.area)) / kMapSide;
-  return std::max(std::min(across, side), resolution);
+  return std::max(std::min(across, side), kFinest * resolution);
+}
+
+/// Pixel size of the first look at plates.
+double coarse_pitch_for(const FacetPatch& a, const FacetPatch& b, double resolution) {
+  return std::max(kCoarser * pitch_for(a, b, 0.0), kFinest * resolution);
 }
 
 std::vector<double> turns_for(const FacetPatch& a, const FacetPatch& b, double step) {
@@ -214,9 +220,10 @@ SweepResult sweep(const Fragment& a, const Fragment& b, const SweepOptions& opti
       fine[k] = correlate_turns(pa, pb, task, pitch, turns_for(pa, pb, step), options.per_pair_of_facets);
       return;
     }
-    const double step = turn_step(pa, pb, kCoarser * pitch, options.turn_step_px);
+    const double first_pitch = coarse_pitch_for(pa, pb, resolution);
+    const double step = turn_step(pa, pb, first_pitch, options.turn_step_px);
     coarse[k] =
-        correlate_turns(pa, pb, task, kCoarser * pitch, turns_for(pa, pb, step), options.per_pair_of_facets);
+        correlate_turns(pa, pb, task, first_pitch, turns_for(pa, pb, step), options.per_pair_of_facets);
   });
   context.report("search", 0.6);
   std::vector<float> scores;
@@ -231,7 +238,8 @@ SweepResult sweep(const Fragment& a, const Fragment& b, const SweepOptions& opti
     if (worth.empty()) return;
     const double pitch = pitch_for(pa, pb, resolution);
     const double step = turn_step(pa, pb, pitch, options.turn_step_px);
-    const auto turns = turns_near(worth, turn_step(pa, pb, kCoarser * pitch, options.turn_step_px), step);
+    const auto turns = turns_near(
+        worth, turn_step(pa, pb, coarse_pitch_for(pa, pb, resolution), options.turn_step_px), step);
     fine[k] = correlate_turns(pa, pb, task, pitch, turns, options.per_pair_of_facets);
   });
   SweepResult result;

@@ -10,7 +10,7 @@
 namespace rejoin::match {
 namespace {
 
-constexpr double kEven = 11.0;  // strength at which a joint is as likely as not
+constexpr double kEven = 15.0;  // strength at which a joint is as likely as not
 constexpr double kSlope = 2.0;  // strength that multiplies the odds by e
 constexpr double kSure = 0.97;
 constexpr double kPossible = 0.3;
@@ -19,7 +19,8 @@ constexpr double kPossible = 0.3;
 
 double strength(const Evidence& evidence) {
   const double against = evidence.shared_area + evidence.penetration_area;
-  return against > 0 ? evidence.information * evidence.contact_area / against : 0.0;
+  const double touching = against > 0 ? evidence.contact_area / against : 0.0;
+  return evidence.information * touching * touching;
 }
 
 double score_of(double strength) {
