@@ -79,7 +79,7 @@ double text_width(const std::string& text, const TextStyle& style) {
 }
 
 std::string fitted(const std::string& text, const TextStyle& style, double width) {
-  const std::string plain = ascii(text);
+  std::string plain = ascii(text);
   if (text_width(plain, style) <= width) return plain;
   for (std::size_t keep = plain.size(); keep > 2; --keep) {
     const std::size_t head = keep / 2;

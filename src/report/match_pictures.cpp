@@ -119,8 +119,8 @@ std::vector<std::filesystem::path> write_depth_maps(const std::filesystem::path&
                                                     int resolution) {
   const JointMaps maps = make_maps(joint, resolution);
   const MapWindow window = covered_window({&maps.a, &maps.b}, 4);
-  const std::vector<std::filesystem::path> files{folder / "depth_a.png", folder / "depth_b.png",
-                                                 folder / "depth_difference.png"};
+  std::vector<std::filesystem::path> files{folder / "depth_a.png", folder / "depth_b.png",
+                                           folder / "depth_difference.png"};
   write_png(files[0], draw_heights(maps.a, maps, window, "A  " + name_a + ", seen from B"));
   write_png(files[1], draw_heights(maps.b, maps, window, "B  " + name_b + ", seen from A, mirrored"));
   write_png(files[2], draw_difference(maps, window));

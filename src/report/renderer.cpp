@@ -275,7 +275,8 @@ Visibility Scene::look(const Camera& camera, int width, int height) const {
   parallel_for(count, 256, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
       const float x = 2 * (static_cast<float>(k % width) + 0.5F) / static_cast<float>(width) - 1;
-      const float y = 2 * (static_cast<float>(k / width) + 0.5F) / static_cast<float>(height) - 1;
+      const std::size_t row = k / width;
+      const float y = 2 * (static_cast<float>(row) + 0.5F) / static_cast<float>(height) - 1;
       const auto hit = impl_->cast(eye.ray(x, -y));
       if (!hit) continue;
       result.body[k] = impl_->soup.body_of(hit->hit.primID);

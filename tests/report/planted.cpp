@@ -50,6 +50,7 @@ mesh::Mesh wavy_block(int n, bool upper) {
     }
   }
   std::vector<std::uint32_t> border;  // counter-clockwise seen from above
+  border.reserve(static_cast<std::size_t>(2 * (n + m)));
   for (int i = 0; i < n; ++i) border.push_back(at(i, 0));
   for (int j = 0; j < m; ++j) border.push_back(at(n, j));
   for (int i = n; i > 0; --i) border.push_back(at(i, m));
