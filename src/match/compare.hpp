@@ -1,4 +1,5 @@
-/// How far the fast error (rasterised, simplified meshes) is from the slow one (ray-cast, full meshes), and why.
+/// How far the fast error (rasterised, simplified meshes) is from the slow one (ray-cast, full meshes), and
+/// why.
 #pragma once
 
 #include <array>
@@ -18,7 +19,8 @@ struct PoseView {
   double view_side = 0;  ///< f_R, mesh units
 };
 
-/// The view of a pose along the mean normal of the surfaces in contact; where nothing touches, from centroid to centroid.
+/// The view of a pose along the mean normal of the surfaces in contact; where nothing touches, from centroid
+/// to centroid.
 /// \param pose  B's file coordinates -> A's file coordinates
 PoseView view_of_pose(const Fragment& a, const Fragment& b, const Rigid& pose);
 

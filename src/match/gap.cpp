@@ -79,10 +79,29 @@ glm::vec3 barycentric(const glm::vec3& p, const glm::vec3& a, const glm::vec3& b
   return {1 - wb - wc, wb, wc};
 }
 
-/// Normals to compare with: the mesh's own, or those of its faces.
-std::vector<glm::vec3> normals_of(const mesh::Mesh& mesh) {
-  if (mesh.normals.size() == mesh.vertices.size()) return mesh.normals;
-  return angle_weighted_normals(mesh, reliable_normals(mesh));
+/// Area-weighted, so that the thin triangles of a scan count little; not yet of unit length.
+std::vector<glm::vec3> area_normals(const mesh::Mesh& mesh) {
+  std::vector<glm::vec3> result(mesh.vertices.size(), glm::vec3(0.0F));
+  for (const glm::uvec3& face : mesh.faces) {
+    const glm::vec3& a = mesh.vertices[face.x];
+    const glm::vec3 normal = glm::cross(mesh.vertices[face.y] - a, mesh.vertices[face.z] - a);
+    for (int k = 0; k < 3; ++k) result[face[k]] += normal;
+  }
+  return result;
+}
+
+/// The sum over the neighbours: calm on noisy scans, but wrong next to edges.
+std::vector<glm::vec3> spread(const mesh::Mesh& mesh, const std::vector<glm::vec3>& normals) {
+  std::vector<glm::vec3> result(normals.size(), glm::vec3(0.0F));
+  for (const glm::uvec3& face : mesh.faces) {
+    const glm::vec3 sum = normals[face.x] + normals[face.y] + normals[face.z];
+    for (int k = 0; k < 3; ++k) result[face[k]] += sum;
+  }
+  return result;
+}
+
+void make_unit(std::vector<glm::vec3>& normals) {
+  for (glm::vec3& normal : normals) normal = unit_or_zero(normal);
 }
 
 /// The box of a surface, grown by a distance: most vertices of a large partner lie outside it.
@@ -126,9 +145,20 @@ double weighted_quantile(std::vector<std::pair<double, double>>& values, double 
 
 }  // namespace
 
+FacingNormals facing_normals(const mesh::Mesh& mesh) {
+  if (mesh.is_cloud()) return {mesh.normals, mesh.normals};
+  FacingNormals result;
+  result.near = area_normals(mesh);
+  result.calm = spread(mesh, result.near);
+  make_unit(result.near);
+  make_unit(result.calm);
+  return result;
+}
+
 GapField::GapField(const mesh::Mesh& surface)
     : surface_(&with_faces(surface)), scene_(make_scene(surface)), face_normals_(reliable_normals(surface)) {
   corner_normals_ = angle_weighted_normals(surface, face_normals_);
+  facing_normals_ = facing_normals(surface);
 }
 
 std::optional<GapField::Sample> GapField::at(const glm::vec3& point, float max_distance) const {
@@ -138,19 +168,20 @@ std::optional<GapField::Sample> GapField::at(const glm::vec3& point, float max_d
   const glm::uvec3 face = surface_->faces[hit->face];
   const glm::vec3 weight = barycentric(hit->point, surface_->vertices[face.x], surface_->vertices[face.y],
                                        surface_->vertices[face.z]);
-  const glm::vec3 smooth =
-      unit_or_zero(weight.x * corner_normals_[face.x] + weight.y * corner_normals_[face.y] +
-                   weight.z * corner_normals_[face.z]);
+  const auto blend = [&](const std::vector<glm::vec3>& normals) {
+    return unit_or_zero(weight.x * normals[face.x] + weight.y * normals[face.y] + weight.z * normals[face.z]);
+  };
   const glm::vec3 flat = face_normals_[hit->face];
   const bool within = std::min({weight.x, weight.y, weight.z}) > kInside && flat != glm::vec3(0.0F);
-  const bool inside = glm::dot(point - hit->point, within ? flat : smooth) < 0;
-  return Sample{inside ? -hit->distance : hit->distance, smooth, hit->face};
+  const bool inside = glm::dot(point - hit->point, within ? flat : blend(corner_normals_)) < 0;
+  return Sample{inside ? -hit->distance : hit->distance, blend(facing_normals_.near),
+                blend(facing_normals_.calm), hit->face};
 }
 
 Gaps gaps(const mesh::Mesh& a, const GapField& b, const Rigid& b_to_a, double max_distance) {
   constexpr std::size_t kGrain = 512;
   const auto distance = static_cast<float>(max_distance);
-  const std::vector<glm::vec3> normals = normals_of(a);
+  const FacingNormals normals = facing_normals(a);
   const Rigid a_to_b = inverse(b_to_a);
   const glm::dvec3 offset = a_to_b(a.origin) - b.surface().origin;
   const Reach reach(b.surface(), distance);
@@ -162,7 +193,11 @@ Gaps gaps(const mesh::Mesh& a, const GapField& b, const Rigid& b_to_a, double ma
       const auto sample = b.at(point, distance);
       if (!sample) continue;
       result.gap[i] = sample->gap;
-      result.facing[i] = -glm::dot(glm::vec3(a_to_b.rotation * glm::dvec3(normals[i])), sample->normal);
+      const auto facing = [&](const glm::vec3& mine, const glm::vec3& other) {
+        return -glm::dot(glm::vec3(a_to_b.rotation * glm::dvec3(mine)), other);
+      };
+      result.facing[i] =
+          std::max(facing(normals.near[i], sample->normal), facing(normals.calm[i], sample->calm_normal));
     }
   });
   return result;
@@ -175,7 +210,7 @@ std::vector<float> signed_gaps(const mesh::Mesh& a, const mesh::Mesh& b, const R
 
 Contact contact_of(const mesh::Mesh& a, const Gaps& gaps) {
   const std::vector<double> areas = vertex_areas(a);
-  const std::vector<glm::vec3> normals = normals_of(a);
+  const std::vector<glm::vec3> normals = facing_normals(a).near;
   Contact result;
   std::vector<std::pair<double, double>> distances;
   for (std::size_t i = 0; i < a.vertices.size(); ++i) {

@@ -1,6 +1,7 @@
 /// Signed distance from one fragment's surface to the other's at a pose.
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
 #include <vector>
@@ -11,6 +12,13 @@
 
 namespace rejoin::match {
 
+/// Unit normals (0 without area) for the question whether two surfaces face each other, one a vertex.
+struct FacingNormals {
+  std::vector<glm::vec3> near;  ///< over the adjacent faces: right up to an edge, but noisy on scans
+  std::vector<glm::vec3> calm;  ///< over two rings of faces: the other way round
+};
+FacingNormals facing_normals(const mesh::Mesh& mesh);
+
 /// Signed distances to one surface; made once, asked at many poses.  Const members may be called from several
 /// threads.
 class GapField {
@@ -20,20 +28,21 @@ class GapField {
   explicit GapField(const mesh::Mesh& surface);
 
   struct Sample {
-    float gap;           ///< mesh units; above 0 outside the surface, below 0 inside it
-    glm::vec3 normal;    ///< outwards at the nearest point, smooth over the faces, unit (0 without area)
-    std::uint32_t face;  ///< that holds the nearest point
+    float gap;              ///< mesh units; above 0 outside the surface, below 0 inside it
+    glm::vec3 normal;       ///< outwards at the nearest point (FacingNormals::near), unit or 0
+    glm::vec3 calm_normal;  ///< FacingNormals::calm
+    std::uint32_t face;     ///< that holds the nearest point
   };
 
   /// The surface's nearest point within max_distance.
   ///
   /// The sign comes from the normal of the feature that is nearest (face, edge or corner), so it is right
   /// next to sharp edges too.  Beyond the border of an open surface it tells on which side of the border's
-  /// faces the point lies. \param point         in the surface's own frame (relative to surface.origin)
+  /// faces the point lies.
+  /// \param point         in the surface's own frame (relative to surface.origin)
   /// \param max_distance  mesh units
   /// \source Baerentzen and Aanaes 2005, angle-weighted pseudonormals.  Deviation: an edge's normal is the
-  /// mean of its
-  ///         corners' instead of its faces'; the two agree but for the weights.
+  ///         mean of its corners' instead of its faces'; the two agree but for the weights.
   std::optional<Sample> at(const glm::vec3& point, float max_distance) const;
 
   const mesh::Mesh& surface() const { return *surface_; }
@@ -43,13 +52,16 @@ class GapField {
   mesh::RayScene scene_;
   std::vector<glm::vec3> corner_normals_;  ///< angle-weighted, one a vertex
   std::vector<glm::vec3> face_normals_;
+  FacingNormals facing_normals_;
 };
 
 /// One entry a vertex of the asking surface.
 struct Gaps {
-  std::vector<float>
-      gap;  ///< mesh units, negative = penetration; NaN where nothing is within the distance asked for
-  std::vector<float> facing;  ///< -(normal . other normal): 1 = face to face, -1 = the same way; NaN like gap
+  /// Mesh units, negative = penetration; NaN where nothing is within the distance asked for.
+  std::vector<float> gap;
+  /// -(normal . other normal): 1 = face to face, -1 = the same way; the larger answer of both kinds of
+  /// normals, as each errs towards "not facing".  NaN like gap.
+  std::vector<float> facing;
 };
 
 /// Gaps from every vertex of a to b's surface.

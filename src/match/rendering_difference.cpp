@@ -25,7 +25,8 @@ PixelKind kind_of(const DepthMap& map, int i, int j, double pixel) {
   return steepest > kSteepSlope ? PixelKind::Steep : PixelKind::Interior;
 }
 
-/// The kind of each pixel that either rendering covers (the first in the order of PixelKind, if they do not agree).
+/// The kind of each pixel that either rendering covers (the first in the order of PixelKind, if they do not
+/// agree).
 std::vector<PixelKind> kinds_of(const DepthMap& first, const DepthMap& second, double pixel) {
   std::vector<PixelKind> result(first.depth.size(), PixelKind::Interior);
   for (int j = 0; j < first.height; ++j) {

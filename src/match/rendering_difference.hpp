@@ -13,7 +13,8 @@ namespace rejoin::match {
 /// What a difference between two renderings comes from.
 enum class PixelKind {
   Silhouette,  ///< a neighbour is background, or only one of the renderings covers the pixel
-  Steep,  ///< the surface rises by more than kSteepSlope: a shift of a thousandth of a pixel is seen in the depth
+  /// the surface rises by more than kSteepSlope: a shift of a thousandth of a pixel is seen in the depth
+  Steep,
   Interior,  ///< neither: what is left is rounding, or a real difference of the surfaces
 };
 inline constexpr std::size_t kPixelKinds = 3;

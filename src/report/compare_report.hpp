@@ -9,7 +9,8 @@
 
 namespace rejoin::report {
 
-/// Lines of at most 100 columns: the errors at the pose, what their difference comes from, how they agree over the grid.
+/// Lines of at most 100 columns: the errors at the pose, what their difference comes from, how they agree
+/// over the grid.
 std::string compare_table(const match::Comparison& comparison);
 
 /// \param path_a, path_b  as the user gave them
@@ -17,7 +18,8 @@ std::string compare_table(const match::Comparison& comparison);
 std::string compare_json(const match::Comparison& comparison, const std::string& path_a,
                          const std::string& path_b);
 
-/// Differences of depth and of slope difference, drawn against cast and coarse against full, and both errors over the grid.
+/// Differences of depth and of slope difference, drawn against cast and coarse against full, and both errors
+/// over the grid.
 Image draw_comparison(const match::Comparison& comparison, const std::string& name_a,
                       const std::string& name_b);
 

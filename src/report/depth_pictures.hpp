@@ -18,7 +18,8 @@ struct MapWindow {
   int height = 0;
 };
 
-/// The box of all covered pixels of the maps (of equal shape) with `margin` pixels around it; the whole map if nothing is covered.
+/// The box of all covered pixels of the maps (of equal shape) with `margin` pixels around it; the whole map
+/// if nothing is covered.
 MapWindow covered_window(const std::vector<const zbuffer::DepthMap*>& maps, int margin);
 
 /// The pixels of a map in colours, v upwards, background pale.
@@ -34,7 +35,8 @@ struct MapPicture {
   MapWindow window;  ///< width 0: the whole map
 };
 
-/// The map, enlarged to about 900 pixels, with v upwards, a colour bar and the labels.  Background stays pale.
+/// The map, enlarged to about 900 pixels, with v upwards, a colour bar and the labels.  Background stays
+/// pale.
 Image draw_map(const zbuffer::DepthMap& map, const MapPicture& style);
 
 /// Smallest and largest depth but for `tail` of the covered pixels at each end; (0, 1) if nothing is covered.

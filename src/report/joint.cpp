@@ -77,7 +77,7 @@ Joint make_joint(const mesh::Mesh& a, const mesh::Mesh& b, const Rigid& pose, co
   Joint joint{for_pictures(a), for_pictures(b), pose, {}, {}, 0, 0, {}, {}, {}, {}, {}, 0, 0};
   const match::GapField field_a(joint.a);
   const match::GapField field_b(joint.b);
-  const double farthest = kFarthest * std::max(mesh::diameter(joint.a), mesh::diameter(joint.b));
+  const double farthest = round_up(kFarthest * std::max(mesh::diameter(joint.a), mesh::diameter(joint.b)));
   match::Gaps gaps_a = match::gaps(joint.a, field_b, pose, farthest);
   const double typical = match::contact_of(joint.a, gaps_a).gap_p90;
   joint.reach = round_up(std::clamp(2 * typical, std::min(2 * resolution, farthest), farthest));

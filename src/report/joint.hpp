@@ -9,7 +9,8 @@
 
 namespace rejoin::report {
 
-/// Two surfaces at a pose, how far apart they are, and the axes of their joint.  Everything in A's file coordinates.
+/// Two surfaces at a pose, how far apart they are, and the axes of their joint.  Everything in A's file
+/// coordinates.
 struct Joint {
   mesh::Mesh a;  ///< at most kPictureFaces faces
   mesh::Mesh b;
@@ -30,7 +31,8 @@ struct Joint {
 inline constexpr std::size_t kPictureFaces = 300000;  ///< finer than any pixel of the pictures
 
 /// \param a, b        full surfaces; larger ones are simplified first
-/// \param direction   from A to B, unit, A's axes; used where there is no contact.  (0,0,0): from centroid to centroid
+/// \param direction   from A to B, unit, A's axes; used where there is no contact.  (0,0,0): from centroid to
+///         centroid
 /// \param resolution  sample spacing of the scans, mesh units: gaps are never judged finer
 /// \throws InputError a surface without faces
 Joint make_joint(const mesh::Mesh& a, const mesh::Mesh& b, const Rigid& pose, const glm::dvec3& direction,

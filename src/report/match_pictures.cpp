@@ -38,7 +38,8 @@ glm::dvec3 view_direction(const match::Candidate& candidate) {
   return glm::transpose(turn) * glm::dvec3(0, 0, 1);
 }
 
-/// The view turned about Z so that the joint's long axis lies level; B's frame turns the other way, as it faces A.
+/// The view turned about Z so that the joint's long axis lies level; B's frame turns the other way, as it
+/// faces A.
 zbuffer::ViewPair levelled(const zbuffer::ViewPair& view, const glm::dvec3& along) {
   const glm::dvec3 seen = glm::dmat3(view.rotation_a) * along;
   const double angle = -std::atan2(seen.y, seen.x);
@@ -73,7 +74,8 @@ JointMaps make_maps(const Joint& joint, int resolution) {
           zbuffer::slope_difference(a, b, options.view_side)};
 }
 
-/// Depths where both maps are covered, so that the colours show the relief of the joint; the whole map's otherwise.
+/// Depths where both maps are covered, so that the colours show the relief of the joint; the whole map's
+/// otherwise.
 zbuffer::DepthMap within_joint(const zbuffer::DepthMap& map, const zbuffer::DepthMap& difference) {
   zbuffer::DepthMap result = map;
   bool any = false;

@@ -13,8 +13,10 @@ struct MatchOutputOptions {
 };
 
 /// Writes the pictures and files of the best candidate:
-///   match.png              the fragments opened, joined, their faces coloured by gap, a cut through the joint
-///   depth_a.png, depth_b.png, depth_difference.png   both maps along the joint (B's mirrored into A's frame), and where
+///   match.png              the fragments opened, joined, their faces coloured by gap, a cut through the
+/// joint
+///   depth_a.png, depth_b.png, depth_difference.png   both maps along the joint (B's mirrored into A's
+/// frame), and where
 ///                          their slopes differ
 ///   convergence.svg        the search's course, or the candidates' scores
 ///   joined.glb, joined.ply A and B moved onto it, in A's file coordinates, each in its own colour

@@ -150,7 +150,8 @@ void draw_gap_views(Image& sheet, const Joint& joint, const Area& area) {
   draw_text(sheet, book.b.x + 12, book.b.y + 22, "B", {14, kInk, Align::Left, true});
 }
 
-/// Share of the contact's vertices in each of `count` equal classes from -scale to scale; larger gaps count in the last.
+/// Share of the contact's vertices in each of `count` equal classes from -scale to scale; larger gaps count
+/// in the last.
 std::vector<double> histogram(const Joint& joint, int count) {
   std::vector<double> result(count, 0.0);
   double total = 0;

@@ -19,7 +19,8 @@ struct SheetLabels {
   std::string backend;  ///< "raster (AVX2)"
 };
 
-/// 2000 x 1300: the fragments opened, joined from three sides; the broken faces coloured by gap, how often each gap
+/// 2000 x 1300: the fragments opened, joined from three sides; the broken faces coloured by gap, how often
+/// each gap
 /// occurs, a cut through the joint.
 Image draw_match_sheet(const Joint& joint, const SheetLabels& labels);
 

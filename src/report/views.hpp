@@ -14,11 +14,13 @@ inline constexpr Colour kTintB{132, 166, 202};  ///< cool; told apart by all com
 /// Both fragments where they belong, in their tints.
 std::vector<Body> joined_bodies(const Joint& joint);
 
-/// Both fragments pulled apart along the joint's normal and each turned towards the eye about the joint's long axis, like the
+/// Both fragments pulled apart along the joint's normal and each turned towards the eye about the joint's
+/// long axis, like the
 /// covers of a book, so that both broken faces can be seen.
 std::vector<Body> opened_bodies(const Joint& joint, const glm::dvec3& back);
 
-/// Three directions towards the eye: from the side that shows most, across the seam (it runs through the picture), along it (end on).
+/// Three directions towards the eye: from the side that shows most, across the seam (it runs through the
+/// picture), along it (end on).
 struct JointViews {
   glm::dvec3 best;
   glm::dvec3 across;

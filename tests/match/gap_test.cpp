@@ -162,6 +162,16 @@ TEST(Contact, PenetrationIsTheMeanDepthOfOverlap) {
   EXPECT_NEAR(contact.area, 4.0, 1e-4);
 }
 
+TEST(Contact, NoiseOfTheScanMakesNoHoles) {
+  mesh::Mesh a = plane(60, 0, true);
+  Random random(3);
+  const double cell = 2.0 / 60;
+  for (glm::vec3& vertex : a.vertices) vertex.z += static_cast<float>(random.uniform(-cell, cell));
+  const Contact contact =
+      contact_of(a, gaps(a, GapField(plane(3, 0, false)), {glm::dmat3(1.0), {0, 0, 0.01}}, 0.2));
+  EXPECT_GT(contact.area, 0.99 * mesh::surface_area(a));
+}
+
 TEST(Contact, SurfacesThatLookTheSameWayDoNotTouch) {
   const mesh::Mesh a = plane(10, 0, true);
   const Contact contact =

@@ -7,7 +7,8 @@
 
 namespace rejoin::report {
 
-/// A box of 2 x 1 x 0.6 (x, y, z) whose top is a wavy surface about z = 0, on an n x n/2 grid; closed, sharing vertices.
+/// A box of 2 x 1 x 0.6 (x, y, z) whose top is a wavy surface about z = 0, on an n x n/2 grid; closed,
+/// sharing vertices.
 /// \param upper  the part above the cut instead of the one below it
 mesh::Mesh wavy_block(int n, bool upper);
 
