@@ -166,10 +166,10 @@ TEST(Contact, NoiseOfTheScanMakesNoHoles) {
   mesh::Mesh a = plane(60, 0, true);
   Random random(3);
   const double cell = 2.0 / 60;
-  for (glm::vec3& vertex : a.vertices) vertex.z += static_cast<float>(random.uniform(-cell, cell));
+  for (glm::vec3& vertex : a.vertices) vertex.z += static_cast<float>(random.uniform(-2 * cell, 2 * cell));
   const Contact contact =
       contact_of(a, gaps(a, GapField(plane(3, 0, false)), {glm::dmat3(1.0), {0, 0, 0.01}}, 0.2));
-  EXPECT_GT(contact.area, 0.99 * mesh::surface_area(a));
+  EXPECT_GT(contact.area, 0.99 * mesh::surface_area(a));  // by one ring of faces alone it is 0.95
 }
 
 TEST(Contact, SurfacesThatLookTheSameWayDoNotTouch) {
