@@ -13,7 +13,7 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kAcross = 7.0;          // pixels across a strip
 constexpr double kMapSide = 36.0;        // pixels across a plate
 constexpr double kElongated = 3.0;       // length over mean width from which a facet is a strip
-constexpr double kStripTurn = 0.35;      // strips lie along each other within 20 degrees
+constexpr double kStripTurn = 0.4;       // strips lie along each other within 23 degrees
 constexpr double kFinest = 0.7;          // of the scans' resolution: below it there is nothing to see
 constexpr double kCoarser = 2.0;         // pitch of the first look at plates
 constexpr std::size_t kSecondLook = 64;  // coarse peaks of a pair of fragments that are looked at finely
@@ -101,21 +101,22 @@ bool better(const SweepHit& x, const SweepHit& y) {
   return x.turn_rad < y.turn_rad;
 }
 
-/// How far two poses put the corners of B's box apart, root mean square.
-double pose_distance(const Rigid& x, const Rigid& y, double reach) {
+/// How far two poses put points apart that lie about `reach` from `centre` (in B's frame), root mean square.
+double pose_distance(const Rigid& x, const Rigid& y, const glm::dvec3& centre, double reach) {
   const glm::dmat3 d = x.rotation - y.rotation;
   double sum = 0.0;
   for (int k = 0; k < 3; ++k) sum += glm::dot(d[k], d[k]);
-  const glm::dvec3 t = x.translation - y.translation;
+  const glm::dvec3 t = x(centre) - y(centre);
   return std::sqrt(glm::dot(t, t) + sum * reach * reach / 3.0);
 }
 
-std::vector<SweepHit> distinct(std::vector<SweepHit> hits, double near, double reach, std::size_t most) {
+std::vector<SweepHit> distinct(std::vector<SweepHit> hits, double near, const glm::dvec3& centre,
+                               double reach, std::size_t most) {
   std::sort(hits.begin(), hits.end(), better);
   std::vector<SweepHit> kept;
   for (const auto& hit : hits) {
     const bool known = std::any_of(kept.begin(), kept.end(), [&](const SweepHit& other) {
-      return pose_distance(hit.pose, other.pose, reach) < near;
+      return pose_distance(hit.pose, other.pose, centre, reach) < near;
     });
     if (!known) kept.push_back(hit);
     if (kept.size() == most) break;
@@ -144,7 +145,7 @@ SweepResult correlate_turns(const FacetPatch& a, const FacetPatch& b, const Task
                              pose_of_peak(a, b, map_a, maps_b[t], peak, turns[t])});
     }
   }
-  result.hits = distinct(std::move(result.hits), 3.0 * pitch, 0.5 * std::min(a.length, b.length),
+  result.hits = distinct(std::move(result.hits), 3.0 * pitch, b.centre, 0.5 * std::min(a.length, b.length),
                          static_cast<std::size_t>(keep));
   return result;
 }
@@ -247,8 +248,8 @@ SweepResult sweep(const Fragment& a, const Fragment& b, const SweepOptions& opti
     result.hits.insert(result.hits.end(), fine[k].hits.begin(), fine[k].hits.end());
     result.evaluations += coarse[k].evaluations + fine[k].evaluations;
   }
-  result.hits = distinct(std::move(result.hits), 3.0 * resolution, 0.25 * std::min(a.diameter, b.diameter),
-                         static_cast<std::size_t>(options.most));
+  result.hits = distinct(std::move(result.hits), 3.0 * resolution, mesh::centroid(b.surface),
+                         0.25 * std::min(a.diameter, b.diameter), static_cast<std::size_t>(options.most));
   return result;
 }
 

@@ -21,6 +21,7 @@ constexpr float kWallLow = 0.5F;        // of the wall thickness
 constexpr float kWallHigh = 1.8F;
 constexpr float kWallSquare = 0.8F;      // the opposite wall may lean by 37 degrees
 constexpr double kStripRadius = 0.7;     // of the wall thickness
+constexpr float kStripCone = 28.0F;        // degrees: a strip ends where the break turns a corner
 constexpr double kSamplesPerWall = 7.0;  // across a sherd's fracture strip
 constexpr double kMostSamples = 60000.0;
 
@@ -198,6 +199,7 @@ Segmentation segment(const Mesh& mesh) {
 
   detail::GrowOptions options;
   options.spacing = s.samples.spacing;
+  if (thin) options.cone_deg = kStripCone;
   options.smallest = std::max<std::size_t>(20, s.samples.size() / 300);
   s.facet_of_sample.assign(s.samples.size(), -1);
   for (auto& members :
