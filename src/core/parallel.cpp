@@ -14,7 +14,9 @@ ThreadLimit::ThreadLimit(int threads)
                                                      static_cast<std::size_t>(threads))
                            : nullptr) {}
 
-ThreadLimit::~ThreadLimit() { delete static_cast<tbb::global_control*>(control_); }
+ThreadLimit::~ThreadLimit() {
+  delete static_cast<tbb::global_control*>(control_);
+}
 
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body) {

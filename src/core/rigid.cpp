@@ -12,7 +12,8 @@ glm::dmat3 rotation_between(const glm::dvec3& from, const glm::dvec3& to) {
   const glm::dvec3 axis = glm::cross(from, to);
   const double sine = glm::length(axis);
   const double cosine = glm::dot(from, to);
-  if (sine < 1e-12) return cosine > 0 ? glm::dmat3(1.0) : axis_rotation(frame_of(from)[0], 3.14159265358979323846);
+  if (sine < 1e-12)
+    return cosine > 0 ? glm::dmat3(1.0) : axis_rotation(frame_of(from)[0], 3.14159265358979323846);
   return axis_rotation(axis / sine, std::atan2(sine, cosine));
 }
 

@@ -24,18 +24,19 @@ enum class Verdict { Join, Unsure, NoJoin };
 struct Options {
   Search search = Search::Sweep;
   Constraint constraint = Constraint::None;
-  std::vector<glm::dvec3> directions_a;   ///< fracture directions, outwards, file axes; empty: found from the facets
+  std::vector<glm::dvec3>
+      directions_a;  ///< fracture directions, outwards, file axes; empty: found from the facets
   std::vector<glm::dvec3> directions_b;
-  double tolerance_deg = 10.0;            ///< how far the facing directions may be off, 0 .. 45
-  std::optional<glm::dvec3> material_a;   ///< material axis, file axes
+  double tolerance_deg = 10.0;           ///< how far the facing directions may be off, 0 .. 45
+  std::optional<glm::dvec3> material_a;  ///< material axis, file axes
   std::optional<glm::dvec3> material_b;
-  std::vector<int> facets_a;              ///< facet numbers that may join (`rejoin facets`); empty: any
+  std::vector<int> facets_a;  ///< facet numbers that may join (`rejoin facets`); empty: any
   std::vector<int> facets_b;
-  int resolution = 128;                   ///< pixels across a depth map of a whole fragment
+  int resolution = 128;  ///< pixels across a depth map of a whole fragment
   zbuffer::Backend backend = zbuffer::Backend::Auto;
-  int chains = 8;                         ///< independent annealing chains
+  int chains = 8;  ///< independent annealing chains
   std::uint64_t seed = 1;
-  int max_candidates = 8;                 ///< distinct poses that are returned
+  int max_candidates = 8;  ///< distinct poses that are returned
 };
 
 /// A fragment made ready: surface, level of detail, facets.
@@ -54,38 +55,38 @@ Fragment prepare(std::string path, mesh::Mesh scan, const Context& context);
 
 /// How good a joint is, and by what.
 struct JointError {
-  double depth = std::numeric_limits<double>::infinity();   ///< e_d, fraction of f_R per pixel step
-  double slope = std::numeric_limits<double>::infinity();   ///< e_d * N
-  double raycast = std::numeric_limits<double>::infinity(); ///< slope error by ray casting the full surfaces
-  double overlap = 0;       ///< A_S / min(A_S1, A_S2)
-  double contact_area = 0;  ///< squared mesh units
-  double gap_median = 0;    ///< mesh units, over the contact
-  double penetration = 0;   ///< mean depth by which the surfaces overlap, mesh units
+  double depth = std::numeric_limits<double>::infinity();    ///< e_d, fraction of f_R per pixel step
+  double slope = std::numeric_limits<double>::infinity();    ///< e_d * N
+  double raycast = std::numeric_limits<double>::infinity();  ///< slope error by ray casting the full surfaces
+  double overlap = 0;                                        ///< A_S / min(A_S1, A_S2)
+  double contact_area = 0;                                   ///< squared mesh units
+  double gap_median = 0;                                     ///< mesh units, over the contact
+  double penetration = 0;  ///< mean depth by which the surfaces overlap, mesh units
 };
 
 struct Candidate {
-  Rigid pose;               ///< B's file coordinates -> A's file coordinates
-  double score = 0;         ///< 0 .. 1
+  Rigid pose;        ///< B's file coordinates -> A's file coordinates
+  double score = 0;  ///< 0 .. 1
   JointError error;
-  int facet_a = -1;         ///< the facets that face each other; -1: not from a facet
+  int facet_a = -1;  ///< the facets that face each other; -1: not from a facet
   int facet_b = -1;
-  zbuffer::ViewPair view;   ///< depth-map view of the joint (whole-fragment maps)
+  zbuffer::ViewPair view;  ///< depth-map view of the joint (whole-fragment maps)
 };
 
 /// A point of the search's course, for the convergence picture.
 struct Progress {
   long evaluations;
-  double best;              ///< lowest energy so far
-  double temperature;       ///< 0 where the search has none
+  double best;         ///< lowest energy so far
+  double temperature;  ///< 0 where the search has none
 };
 
 struct Result {
-  std::vector<Candidate> candidates;   ///< best first, distinct; empty only if nothing could be tried
+  std::vector<Candidate> candidates;  ///< best first, distinct; empty only if nothing could be tried
   Verdict verdict = Verdict::NoJoin;
   long evaluations = 0;
-  bool cancelled = false;              ///< stopped before the end; what was found is here
+  bool cancelled = false;  ///< stopped before the end; what was found is here
   std::map<std::string, double> stage_seconds;
-  std::vector<std::vector<Progress>> convergence;   ///< one a chain (ESA)
+  std::vector<std::vector<Progress>> convergence;  ///< one a chain (ESA)
   zbuffer::Backend backend = zbuffer::Backend::Auto;
   std::string renderer;
   std::vector<std::string> warnings;

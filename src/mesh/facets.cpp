@@ -21,7 +21,7 @@ constexpr float kWallLow = 0.5F;        // of the wall thickness
 constexpr float kWallHigh = 1.8F;
 constexpr float kWallSquare = 0.8F;      // the opposite wall may lean by 37 degrees
 constexpr double kStripRadius = 0.7;     // of the wall thickness
-constexpr float kStripCone = 28.0F;        // degrees: a strip ends where the break turns a corner
+constexpr float kStripCone = 28.0F;      // degrees: a strip ends where the break turns a corner
 constexpr double kSamplesPerWall = 7.0;  // across a sherd's fracture strip
 constexpr double kMostSamples = 60000.0;
 

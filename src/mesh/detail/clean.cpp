@@ -160,7 +160,8 @@ void clean_cloud(Loaded& loaded, const std::string& name) {
         fmt::format("{}: dropped {} of {} points without a usable normal", name, dropped, count));
   }
   if (is_line(mesh.vertices)) {
-    throw InputError(name, fmt::format("its {} distinct points span no area", count), "export the scan again");
+    throw InputError(name, fmt::format("its {} distinct points span no area", count),
+                     "export the scan again");
   }
   if (mesh.normals.empty()) mesh.normals = estimate_normals(mesh.vertices);
   normalize_all(mesh.normals);
