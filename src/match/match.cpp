@@ -17,6 +17,7 @@ constexpr double kDegree = 0.017453292519943295;
 constexpr double kFacetSpread_deg =
     25.0;  // how far a facet's mean normal may lie from the direction that a user sees
 
+constexpr std::size_t kEvenIfCancelled = 6;
 constexpr int kQuickSamples = 1500;  // of B's broken surface while there are many hypotheses
 
 /// A pose on its way through the stages; relative to the meshes' origins.
@@ -115,13 +116,14 @@ void sort_by_strength(std::vector<Hypothesis>& list) {
                    [](const Hypothesis& x, const Hypothesis& y) { return x.strength > y.strength; });
 }
 
-/// Aligns every hypothesis and weighs its evidence; those not reached before a cancel are dropped.
+/// Aligns every hypothesis and weighs its evidence.  After a cancel only the first few still are, so that what was found is
+/// not lost; the others are dropped.
 void refine(std::vector<Hypothesis>& list, const Joint& joint, const AlignOptions& options,
             const Context& context) {
   std::vector<char> done(list.size(), 0);
   parallel_for(list.size(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
-      if (context.cancelled()) return;
+      if (context.cancelled() && k >= kEvenIfCancelled) continue;
       list[k].pose = joint.align(list[k].pose, options);
       list[k].evidence = joint.evidence(list[k].pose, options.most_samples > 0 ? kQuickSamples : 0);
       list[k].strength = strength(list[k].evidence);

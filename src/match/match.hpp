@@ -61,7 +61,7 @@ struct JointError {
   double overlap = 0;                                        ///< A_S / min(A_S1, A_S2)
   double contact_area = 0;                                   ///< squared mesh units
   double gap_median = 0;                                     ///< mesh units, over the contact
-  double penetration = 0;  ///< mean depth by which the surfaces overlap, mesh units
+  double penetration = 0;  ///< volume of B that lies clearly inside A, over the contact area, mesh units
 };
 
 struct Candidate {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <mutex>
 
 #include "core/parallel.hpp"
 
@@ -126,12 +127,13 @@ std::vector<SweepHit> distinct(std::vector<SweepHit> hits, double near, const gl
 
 /// All shifts of b's patch on a's at the given turns.
 SweepResult correlate_turns(const FacetPatch& a, const FacetPatch& b, const Task& task, double pitch,
-                            const std::vector<double>& turns, int keep) {
+                            const std::vector<double>& turns, int keep, const Context& context) {
   const ReliefMap map_a = relief_of(a, pitch);
   std::vector<ReliefMap> maps_b;
   int width = 0;
   int height = 0;
   for (const double turn : turns) {
+    if (context.cancelled()) return {};
     maps_b.push_back(facing_relief_of(b, pitch, turn));
     width = std::max(width, maps_b.back().width);
     height = std::max(height, maps_b.back().height);
@@ -139,7 +141,7 @@ SweepResult correlate_turns(const FacetPatch& a, const FacetPatch& b, const Task
   Correlator correlator(map_a, width, height, CorrelateOptions{});
   SweepResult result;
   result.evaluations = static_cast<long>(turns.size()) * correlator.shifts();
-  for (std::size_t t = 0; t < turns.size(); ++t) {
+  for (std::size_t t = 0; t < turns.size() && !context.cancelled(); ++t) {
     for (const Agreement& peak : correlator.peaks(maps_b[t])) {
       result.hits.push_back({task.facet_a, task.facet_b, turns[t], pitch, peak,
                              pose_of_peak(a, b, map_a, maps_b[t], peak, turns[t])});
@@ -202,6 +204,8 @@ SweepResult sweep(const Fragment& a, const Fragment& b, const SweepOptions& opti
   const std::size_t pairs = patches_a.size() * patches_b.size();
   std::vector<SweepResult> coarse(pairs);
   std::vector<SweepResult> fine(pairs);
+  std::mutex reporting;
+  std::size_t done = 0;
   const auto each_pair = [&](const auto& body) {
     parallel_for(pairs, 1, [&](std::size_t first, std::size_t last) {
       for (std::size_t k = first; k < last; ++k) {
@@ -210,6 +214,8 @@ SweepResult sweep(const Fragment& a, const Fragment& b, const SweepOptions& opti
         const std::size_t j = k % patches_b.size();
         if (patches_a[i].faces.empty() || patches_b[j].faces.empty()) continue;
         body(k, patches_a[i], patches_b[j], Task{list_a[i], list_b[j]});
+        const std::lock_guard lock(reporting);
+        context.report("search", static_cast<double>(++done) / static_cast<double>(2 * pairs));
       }
     });
   };
@@ -218,15 +224,16 @@ SweepResult sweep(const Fragment& a, const Fragment& b, const SweepOptions& opti
     const double pitch = pitch_for(pa, pb, resolution);
     if (is_strip(pa) && is_strip(pb)) {
       const double step = turn_step(pa, pb, pitch, options.turn_step_px);
-      fine[k] = correlate_turns(pa, pb, task, pitch, turns_for(pa, pb, step), options.per_pair_of_facets);
+      fine[k] =
+          correlate_turns(pa, pb, task, pitch, turns_for(pa, pb, step), options.per_pair_of_facets, context);
       return;
     }
     const double first_pitch = coarse_pitch_for(pa, pb, resolution);
     const double step = turn_step(pa, pb, first_pitch, options.turn_step_px);
-    coarse[k] =
-        correlate_turns(pa, pb, task, first_pitch, turns_for(pa, pb, step), options.per_pair_of_facets);
+    coarse[k] = correlate_turns(pa, pb, task, first_pitch, turns_for(pa, pb, step),
+                                options.per_pair_of_facets, context);
   });
-  context.report("search", 0.6);
+  done = pairs;
   std::vector<float> scores;
   for (const auto& part : coarse) {
     for (const auto& hit : part.hits) scores.push_back(hit.agreement.score);
@@ -241,11 +248,13 @@ SweepResult sweep(const Fragment& a, const Fragment& b, const SweepOptions& opti
     const double step = turn_step(pa, pb, pitch, options.turn_step_px);
     const auto turns = turns_near(
         worth, turn_step(pa, pb, coarse_pitch_for(pa, pb, resolution), options.turn_step_px), step);
-    fine[k] = correlate_turns(pa, pb, task, pitch, turns, options.per_pair_of_facets);
+    fine[k] = correlate_turns(pa, pb, task, pitch, turns, options.per_pair_of_facets, context);
   });
   SweepResult result;
   for (std::size_t k = 0; k < pairs; ++k) {
     result.hits.insert(result.hits.end(), fine[k].hits.begin(), fine[k].hits.end());
+    if (context.cancelled())
+      result.hits.insert(result.hits.end(), coarse[k].hits.begin(), coarse[k].hits.end());
     result.evaluations += coarse[k].evaluations + fine[k].evaluations;
   }
   result.hits = distinct(std::move(result.hits), 3.0 * resolution, mesh::centroid(b.surface),

@@ -46,7 +46,9 @@ Candidate Verifier::candidate(const Rigid& pose, const Evidence& evidence, doubl
   c.score = score_of(strength);
   c.error.contact_area = evidence.contact_area;
   c.error.gap_median = evidence.gap_median;
-  c.error.penetration = evidence.penetration;
+  if (evidence.contact_area > 0) {
+    c.error.penetration = evidence.penetration * evidence.penetration_area / evidence.contact_area;
+  }
   const glm::dvec3 direction = glm::length(evidence.normal) > 0 ? evidence.normal : glm::dvec3(0, 0, 1);
   const ViewCentres centres{a_.surface.origin + glm::dvec3(view_.centre_a),
                             b_.surface.origin + glm::dvec3(view_.centre_b)};
