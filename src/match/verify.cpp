@@ -10,8 +10,8 @@
 namespace rejoin::match {
 namespace {
 
-constexpr double kEven = 15.0;  // strength at which a joint is as likely as not
-constexpr double kSlope = 2.0;  // strength that multiplies the odds by e
+constexpr double kEven = 11.0;  // strength at which a joint is as likely as not
+constexpr double kSlope = 1.5;  // strength that multiplies the odds by e
 constexpr double kSure = 0.97;
 constexpr double kPossible = 0.3;
 
