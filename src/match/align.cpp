@@ -145,6 +145,7 @@ struct Joint::Impl {
     }
     if (most > 0 && list.size() > static_cast<std::size_t>(most)) {
       std::vector<std::uint32_t> fewer;
+      fewer.reserve(static_cast<std::size_t>(most));
       const double step = static_cast<double>(list.size()) / most;
       for (int k = 0; k < most; ++k) fewer.push_back(list[static_cast<std::size_t>(k * step)]);
       list.swap(fewer);

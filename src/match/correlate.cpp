@@ -238,8 +238,10 @@ Agreement agreement_at(const ReliefMap& fixed, const ReliefMap& other, int shift
   Sums s{};
   for (int j = std::max(0, shift_v); j < std::min(fixed.height, other.height + shift_v); ++j) {
     for (int i = std::max(0, shift_u); i < std::min(fixed.width, other.width + shift_u); ++i) {
-      const auto p = static_cast<std::size_t>(j * fixed.width + i);
-      const auto q = static_cast<std::size_t>((j - shift_v) * other.width + (i - shift_u));
+      const auto p =
+          static_cast<std::size_t>(j) * static_cast<std::size_t>(fixed.width) + static_cast<std::size_t>(i);
+      const auto q = static_cast<std::size_t>(j - shift_v) * static_cast<std::size_t>(other.width) +
+                     static_cast<std::size_t>(i - shift_u);
       const float both = fixed.mask[p] * other.mask[q];
       if (both == 0.0F) continue;
       s.n += 1.0F;

@@ -17,6 +17,7 @@ std::vector<CandidateDirection> candidate_directions(const Fragment& fragment,
                                                      const std::vector<glm::dvec3>& given,
                                                      const std::vector<int>& allowed, int most) {
   std::vector<CandidateDirection> found;
+  found.reserve(given.size());
   for (const glm::dvec3& direction : given) found.push_back({glm::normalize(direction), -1});
   if (!found.empty()) return found;
 

@@ -132,7 +132,7 @@ void refine(std::vector<Hypothesis>& list, const Joint& joint, const AlignOption
   });
   std::vector<Hypothesis> kept;
   for (std::size_t k = 0; k < list.size(); ++k) {
-    if (done[k] != 0) kept.push_back(std::move(list[k]));
+    if (done[k] != 0) kept.push_back(list[k]);
   }
   list.swap(kept);
   sort_by_strength(list);
@@ -172,7 +172,7 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
   context.report("align", 0.5);
   refine(hypotheses, joint, {24.0 * tolerance, 4.0 * tolerance, 16, 300}, context);
   const double diameter = std::max(a.diameter, b.diameter);
-  hypotheses = distinct(hypotheses, b, diameter, static_cast<std::size_t>(2 * options.max_candidates));
+  hypotheses = distinct(hypotheses, b, diameter, 2 * static_cast<std::size_t>(options.max_candidates));
   if (!context.cancelled()) refine(hypotheses, joint, {12.0 * tolerance, 3.0 * tolerance, 20, 0}, context);
   hypotheses = distinct(hypotheses, b, diameter, static_cast<std::size_t>(options.max_candidates));
   clock.lap("align");

@@ -64,8 +64,10 @@ Rigid pose_of_peak(const FacetPatch& a, const FacetPatch& b, const ReliefMap& ma
   double count = 0.0;
   for (int j = std::max(0, peak.shift_v); j < std::min(map_a.height, map_b.height + peak.shift_v); ++j) {
     for (int i = std::max(0, peak.shift_u); i < std::min(map_a.width, map_b.width + peak.shift_u); ++i) {
-      const auto p = static_cast<std::size_t>(j * map_a.width + i);
-      const auto q = static_cast<std::size_t>((j - peak.shift_v) * map_b.width + (i - peak.shift_u));
+      const auto p =
+          static_cast<std::size_t>(j) * static_cast<std::size_t>(map_a.width) + static_cast<std::size_t>(i);
+      const auto q = static_cast<std::size_t>(j - peak.shift_v) * static_cast<std::size_t>(map_b.width) +
+                     static_cast<std::size_t>(i - peak.shift_u);
       if (map_a.mask[p] * map_b.mask[q] == 0.0F) continue;
       middle += map_a.low + map_a.pitch * glm::dvec2(i + 0.5, j + 0.5);
       offset += static_cast<double>(map_a.height_map[p] + map_b.height_map[q]);
@@ -189,6 +191,7 @@ std::vector<int> candidates(const Fragment& fragment, const std::vector<int>& ch
 std::vector<FacetPatch> patches_of(const Fragment& fragment, const std::vector<int>& list) {
   const auto facet_of_face = mesh::facet_of_faces(fragment.facets, fragment.coarse);
   std::vector<FacetPatch> patches;
+  patches.reserve(list.size());
   for (const int f : list) patches.push_back(cut_patch(fragment.coarse, facet_of_face, fragment.facets, f));
   return patches;
 }

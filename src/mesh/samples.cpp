@@ -39,7 +39,7 @@ std::vector<Dart> throw_darts(const Mesh& mesh, double per_area, const glm::vec3
     const glm::vec3 b = mesh.vertices[face.y];
     const glm::vec3 c = mesh.vertices[face.z];
     carried += 0.5 * static_cast<double>(glm::length(glm::cross(b - a, c - a))) * per_area;
-    for (; carried >= 1.0; carried -= 1.0, ++index) {
+    while (carried >= 1.0) {
       double u = std::fmod(0.5 + 0.7548776662466927 * static_cast<double>(index), 1.0);
       double v = std::fmod(0.5 + 0.5698402909980532 * static_cast<double>(index), 1.0);
       if (u + v > 1.0) {
@@ -48,6 +48,8 @@ std::vector<Dart> throw_darts(const Mesh& mesh, double per_area, const glm::vec3
       }
       const glm::vec3 point = a + static_cast<float>(u) * (b - a) + static_cast<float>(v) * (c - a);
       darts.push_back({cell_of(point, low, spacing), point, f});
+      carried -= 1.0;
+      ++index;
     }
   }
   return darts;
