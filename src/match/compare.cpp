@@ -75,9 +75,9 @@ void check(const CompareOptions& options) {
   }
 }
 
-Agreement agreement(const std::vector<GridPose>& grid, PairScore GridPose::*first,
-                    PairScore GridPose::*second, int resolution) {
-  Agreement result;
+ErrorAgreement agreement(const std::vector<GridPose>& grid, PairScore GridPose::*first,
+                         PairScore GridPose::*second, int resolution) {
+  ErrorAgreement result;
   double sum_x = 0, sum_y = 0, sum_xx = 0, sum_xy = 0, sum_yy = 0;
   for (const GridPose& pose : grid) {
     const double x = static_cast<double>((pose.*first).error) * resolution;

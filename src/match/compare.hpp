@@ -42,7 +42,7 @@ struct GridPose {
 };
 
 /// How two columns of errors (as slopes) agree over the grid; poses without overlap in either are left out.
-struct Agreement {
+struct ErrorAgreement {
   int poses = 0;
   double mean = 0;         ///< mean |difference|, slope
   double max = 0;          ///< largest |difference|, slope
@@ -57,11 +57,11 @@ struct Comparison {
   std::string caster;
   GridPose pose;  ///< the given one
   std::vector<GridPose> grid;
-  RenderingDifference drawing;  ///< drawn - cast, same (coarse) meshes
-  RenderingDifference detail;   ///< cast coarse - cast full
-  Agreement drawing_agreement;  ///< drawn against cast
-  Agreement detail_agreement;   ///< cast against cast_full
-  Agreement total_agreement;    ///< drawn against cast_full
+  RenderingDifference drawing;       ///< drawn - cast, same (coarse) meshes
+  RenderingDifference detail;        ///< cast coarse - cast full
+  ErrorAgreement drawing_agreement;  ///< drawn against cast
+  ErrorAgreement detail_agreement;   ///< cast against cast_full
+  ErrorAgreement total_agreement;    ///< drawn against cast_full
 };
 
 /// \throws BackendError a backend is missing   \throws InputError an option is out of range

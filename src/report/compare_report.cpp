@@ -52,7 +52,7 @@ ordered_json difference_json(const match::RenderingDifference& difference) {
           {"kinds", kinds}};
 }
 
-ordered_json agreement_json(const match::Agreement& agreement) {
+ordered_json agreement_json(const match::ErrorAgreement& agreement) {
   return {{"poses", agreement.poses},
           {"mean", agreement.mean},
           {"max", agreement.max},
@@ -81,7 +81,7 @@ std::string difference_lines(const match::RenderingDifference& difference) {
   return text;
 }
 
-std::string agreement_line(const char* name, const match::Agreement& agreement) {
+std::string agreement_line(const char* name, const match::ErrorAgreement& agreement) {
   return fmt::format("  {:<28}{:>12}{:>12}{:>10} %{:>12}\n", name, short_number(agreement.mean),
                      short_number(agreement.max), short_number(100 * agreement.relative),
                      agreement.poses > 1 ? fmt::format("{:.4f}", agreement.correlation) : "-");
