@@ -200,7 +200,7 @@ Joint::Joint(const Fragment& a, const Fragment& b) : impl_(std::make_unique<Impl
   const double scan = std::max(a.resolution, b.resolution);
   d.tolerance = std::max(d.thickness > 0 ? 0.05 * d.thickness : 0.15 * d.spacing, 0.3 * scan);
   d.noise = 0.15 * scan;
-  d.patch = std::max(0.5 * d.thickness, 2.5 * d.spacing);
+  d.patch = std::max({0.5 * d.thickness, 2.5 * d.spacing, 2.5 * scan});
   const double edge = std::max(0.2 * d.thickness, 1.2 * d.spacing);
   d.a = side_of(a, edge);
   d.b = side_of(b, edge);
