@@ -7,8 +7,8 @@
 
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
-#include "cli/files.hpp"
 #include "cli/json_values.hpp"
+#include "core/files.hpp"
 #include "zbuffer/benchmark.hpp"
 
 namespace rejoin::cli {

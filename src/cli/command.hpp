@@ -27,13 +27,20 @@ class Command {
   /// Adds the options to the subcommand; called once, before run().
   virtual void define(CLI::App& app) = 0;
 
-  /// \return kDone or kInterrupted; anything else leaves as an exception
+  /// \return kDone, kInterrupted, or kFailure if it went on after failures and has told them; anything else leaves as an
+  /// exception
   virtual ExitCode run(Console& console, Context& context) = 0;
 };
 
 std::unique_ptr<Command> make_match_command();
 std::unique_ptr<Command> make_compare_command();
+std::unique_ptr<Command> make_batch_command();
+std::unique_ptr<Command> make_merge_command();
 std::unique_ptr<Command> make_facets_command();
+std::unique_ptr<Command> make_outline_command();
+std::unique_ptr<Command> make_assemble_command();
+std::unique_ptr<Command> make_shatter_command();
+std::unique_ptr<Command> make_report_command();
 std::unique_ptr<Command> make_info_command();
 std::unique_ptr<Command> make_bench_command();
 /// Writes man pages and the bash completion of `root` (hidden; used by the build).

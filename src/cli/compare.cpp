@@ -8,10 +8,10 @@
 
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
-#include "cli/files.hpp"
 #include "cli/fragment.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/json_values.hpp"
+#include "core/files.hpp"
 #include "report/compare_report.hpp"
 
 namespace rejoin::cli {

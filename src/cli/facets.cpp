@@ -5,31 +5,17 @@
 #include <optional>
 
 #include "cli/command.hpp"
-#include "cli/files.hpp"
 #include "cli/fragment.hpp"
 #include "cli/json_values.hpp"
+#include "core/files.hpp"
 #include "mesh/facets.hpp"
 #include "mesh/save.hpp"
+#include "report/facet_picture.hpp"
 
 namespace rejoin::cli {
 namespace {
 
 using nlohmann::ordered_json;
-
-/// Distinct, bright colours for fracture facets; the original surface is grey.
-glm::u8vec3 colour_of(int number, const mesh::Segmentation& facets) {
-  constexpr glm::u8vec3 kNone(60, 60, 60);
-  constexpr glm::u8vec3 kOriginal(190, 190, 190);
-  if (number < 0) return kNone;
-  if (!facets.facets[number].fracture) return kOriginal;
-  const double hue =
-      std::fmod(number * 0.618033988749895, 1.0) * 6.0;  // the golden ratio keeps neighbours apart
-  const auto channel = [hue](double offset) {
-    const double k = std::fmod(offset + hue, 6.0);
-    return static_cast<std::uint8_t>(255.0 * (0.95 - 0.8 * std::clamp(std::min(k, 4.0 - k), 0.0, 1.0)));
-  };
-  return {channel(5.0), channel(3.0), channel(1.0)};
-}
 
 /// The surface with every facet in its own colour; vertices between facets are doubled so that borders stay
 /// sharp.
@@ -46,7 +32,7 @@ mesh::Mesh coloured(const mesh::Mesh& surface, const mesh::Segmentation& facets)
       const auto [copy, added] = copies.try_emplace({vertex, number}, result.vertices.size());
       if (added) {
         result.vertices.push_back(surface.vertices[vertex]);
-        result.colours.push_back(colour_of(number, facets));
+        result.colours.push_back(report::facet_colour(number, facets));
       }
       face[corner] = copy->second;
     }
@@ -89,6 +75,12 @@ std::string facets_json(const match::Fragment& fragment) {
   return text_of(json);
 }
 
+void require_ending(const char* option, const std::optional<std::string>& file, const char* ending) {
+  if (!file || std::filesystem::path(*file).extension() == ending) return;
+  throw UsageError(option, fmt::format("'{}' does not end in {}", *file, ending),
+                   fmt::format("name a {} file", ending));
+}
+
 class FacetsCommand final : public Command {
  public:
   void define(CLI::App& app) override {
@@ -96,15 +88,18 @@ class FacetsCommand final : public Command {
     app.add_option("--ply", ply_, "write the surface with a colour for each facet")
         ->type_name("FILE")
         ->group("Output");
+    app.add_option("--png", png_, "write a picture of it from six sides, facets numbered")
+        ->type_name("FILE")
+        ->group("Output");
     app.add_option("--json", json_, "write the table as JSON")->type_name("FILE")->group("Output");
   }
 
   ExitCode run(Console& console, Context& context) override {
-    if (ply_ && std::filesystem::path(*ply_).extension() != ".ply") {
-      throw UsageError("--ply", "'" + *ply_ + "' does not end in .ply", "name a .ply file");
+    require_ending("--ply", ply_, ".ply");
+    require_ending("--png", png_, ".png");
+    for (const auto& file : {ply_, png_, json_}) {
+      if (file) require_writable_file(*file);
     }
-    if (ply_) require_writable_file(*ply_);
-    if (json_) require_writable_file(*json_);
     const match::Fragment fragment = load_fragment(path_, console, context);
     if (context.cancelled()) return kInterrupted;
     console.result(fmt::format("{}: diameter {:.4g}, {}\n", path_, fragment.diameter,
@@ -113,6 +108,7 @@ class FacetsCommand final : public Command {
                                    : std::string("solid")));
     console.result(table(fragment.facets));
     if (ply_) mesh::save(*ply_, coloured(fragment.surface, fragment.facets));
+    if (png_) report::write_png(*png_, report::facet_picture(fragment.surface, fragment.facets, path_));
     if (json_) write_file(*json_, facets_json(fragment));
     return kDone;
   }
@@ -120,6 +116,7 @@ class FacetsCommand final : public Command {
  private:
   std::string path_;
   std::optional<std::string> ply_;
+  std::optional<std::string> png_;
   std::optional<std::string> json_;
 };
 

@@ -2,8 +2,8 @@
 #include <fmt/core.h>
 
 #include "cli/command.hpp"
-#include "cli/files.hpp"
 #include "cli/help.hpp"
+#include "core/files.hpp"
 #include "core/version.hpp"
 
 namespace rejoin::cli {

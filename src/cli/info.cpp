@@ -5,8 +5,8 @@
 #include <thread>
 
 #include "cli/command.hpp"
-#include "cli/files.hpp"
 #include "cli/json_values.hpp"
+#include "core/files.hpp"
 #include "core/parallel.hpp"
 #include "core/version.hpp"
 #include "zbuffer/scorer.hpp"

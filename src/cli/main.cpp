@@ -47,6 +47,17 @@ std::vector<Entry> add_commands(CLI::App& root) {
       add_command(root, "compare", "Check the error of a pose by ray casting.", make_compare_command()));
   entries.push_back(
       add_command(root, "facets", "Show the surfaces along which A may join.", make_facets_command()));
+  entries.push_back(
+      add_command(root, "outline", "Flat pieces: pictures and outlines.", make_outline_command()));
+  entries.push_back(add_command(root, "assemble", "Put all fragments of a run or folder together.",
+                                make_assemble_command()));
+  entries.push_back(add_command(root, "shatter", "Break a closed mesh into fragments with known poses.",
+                                make_shatter_command()));
+  entries.push_back(
+      add_command(root, "batch", "Match every pair of a folder of scans.", make_batch_command()));
+  entries.push_back(add_command(root, "report", "Write a run as one HTML page.", make_report_command()));
+  entries.push_back(
+      add_command(root, "merge", "Put the runs of several shards together.", make_merge_command()));
   entries.push_back(add_command(root, "info", "Version, backends, threads.", make_info_command()));
   entries.push_back(add_command(root, "bench", "Measure the speed of every backend.", make_bench_command()));
   entries.push_back(add_command(root, "generate-docs", "Write man pages and completion.",

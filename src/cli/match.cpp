@@ -9,11 +9,11 @@
 
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
-#include "cli/files.hpp"
 #include "cli/fragment.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/match_json.hpp"
 #include "cli/match_options.hpp"
+#include "core/files.hpp"
 #include "mesh/save.hpp"
 #include "report/match_pictures.hpp"
 

@@ -26,6 +26,11 @@ class IoError : public Error {
   using Error::Error;
 };
 
+/// A run's database cannot be used.
+class StoreError : public Error {
+  using Error::Error;
+};
+
 /// A rendering backend is missing or failed.
 class BackendError : public Error {
   using Error::Error;

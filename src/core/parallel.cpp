@@ -4,8 +4,14 @@
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
 
 namespace rejoin {
 
@@ -22,6 +28,30 @@ void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, std::max<std::size_t>(1, grain)),
                     [&](const auto& range) { body(range.begin(), range.end()); });
+}
+
+void run_side_by_side(std::size_t count, const std::function<void(std::size_t)>& job) {
+  std::atomic<std::size_t> next{0};
+  std::mutex guard;
+  std::exception_ptr problem;
+  const auto work = [&] {
+    tbb::task_arena alone(1);
+    for (std::size_t k = next++; k < count; k = next++) {
+      try {
+        alone.execute([&] { job(k); });
+      } catch (...) {
+        const std::lock_guard lock(guard);
+        if (!problem) problem = std::current_exception();
+        next = count;
+      }
+    }
+  };
+  const std::size_t workers = std::min(count, static_cast<std::size_t>(thread_count()));
+  std::vector<std::thread> threads;
+  threads.reserve(workers);
+  for (std::size_t w = 0; w < workers; ++w) threads.emplace_back(work);
+  for (std::thread& thread : threads) thread.join();
+  if (problem) std::rethrow_exception(problem);
 }
 
 int thread_count() {

@@ -23,6 +23,11 @@ class ThreadLimit {
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t first, std::size_t last)>& body);
 
+/// Runs job(k) for k = 0 .. count - 1, started in this order, as many side by side as thread_count() allows.  Each job has one
+/// thread: parallel loops inside it run on that alone, so jobs do not wait for each other.  After an exception no further job
+/// starts; it is thrown again once those that run have ended.
+void run_side_by_side(std::size_t count, const std::function<void(std::size_t job)>& job);
+
 /// Number of threads that a loop may use now.
 int thread_count();
 

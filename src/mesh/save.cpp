@@ -1,15 +1,10 @@
 #include "mesh/save.hpp"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "mesh/detail/draco_codec.hpp"
 #include "mesh/detail/writers.hpp"
 
@@ -49,37 +44,6 @@ detail::Soup merged(const std::vector<Placed>& parts) {
   return soup;
 }
 
-[[noreturn]] void fail_writing(const std::string& name) {
-  throw IoError(name, fmt::format("cannot be written ({})", std::strerror(errno)),
-                "check the folder, its permissions and its space");
-}
-
-/// Writes beside the path and renames, so that nobody ever sees half a file.
-void write_whole(const std::filesystem::path& path, const std::string& bytes) {
-  std::filesystem::path temporary = path;
-  temporary += fmt::format(".{}.part", getpid());
-  {
-    std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
-    if (!stream) fail_writing(path.string());
-    stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    stream.close();
-    if (!stream) {
-      const int reason = errno;
-      std::error_code ignored;
-      std::filesystem::remove(temporary, ignored);
-      errno = reason;
-      fail_writing(path.string());
-    }
-  }
-  std::error_code error;
-  std::filesystem::rename(temporary, path, error);
-  if (!error) return;
-  std::error_code ignored;
-  std::filesystem::remove(temporary, ignored);
-  errno = error.value();
-  fail_writing(path.string());
-}
-
 std::string encode(const std::filesystem::path& path, const std::vector<Placed>& parts) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -101,7 +65,7 @@ void save(const std::filesystem::path& path, const Mesh& mesh) {
 }
 
 void save_scene(const std::filesystem::path& path, const std::vector<Placed>& parts) {
-  write_whole(path, encode(path, parts));
+  write_file(path, encode(path, parts));
 }
 
 }  // namespace rejoin::mesh

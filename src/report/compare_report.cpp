@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/files.hpp"
 #include "core/version.hpp"
 #include "report/canvas.hpp"
 
@@ -140,7 +141,7 @@ std::string compare_json(const Comparison& comparison, const std::string& path_a
 
 void write_compare_outputs(const std::filesystem::path& folder, const Comparison& comparison,
                            const std::string& path_a, const std::string& path_b) {
-  make_folder(folder);
+  require_writable_folder(folder);
   const auto name = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
   write_file(folder / "compare.json", compare_json(comparison, path_a, path_b));
   write_png(folder / "compare.png", draw_comparison(comparison, name(path_a), name(path_b)));

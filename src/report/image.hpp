@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
-#include <string_view>
 #include <vector>
 
 namespace rejoin::report {
@@ -28,16 +27,12 @@ struct Image {
 /// same picture gives the same bytes.
 std::vector<std::uint8_t> encode_png(const Image& image);
 
+/// The JPEG file's bytes.  The same picture gives the same bytes.
+/// \param quality  1 .. 100
+std::vector<std::uint8_t> encode_jpeg(const Image& image, int quality);
+
 /// \throws IoError the file cannot be written; it then does not appear at all
 void write_png(const std::filesystem::path& path, const Image& image);
-
-/// Writes bytes beside the path and renames, so that a file is whole or not there.
-/// \throws IoError the file cannot be written
-void write_file(const std::filesystem::path& path, std::string_view bytes);
-
-/// Makes the folder and those above it.
-/// \throws IoError it cannot be made or written into
-void make_folder(const std::filesystem::path& folder);
 
 /// Straight between two colours, share 0 .. 1 of b.
 Colour mix(Colour a, Colour b, double share);

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string_view>
 
-namespace rejoin::cli {
+namespace rejoin {
 
 /// Finds out now, before the long work, whether the file can be written then; leaves no trace.
 /// \throws IoError it cannot
@@ -15,7 +15,7 @@ void require_writable_file(const std::filesystem::path& path);
 void require_writable_folder(const std::filesystem::path& folder);
 
 /// The file appears whole or not at all (written beside and renamed); a device such as /dev/stdout is written
-/// to directly. \throws IoError
+/// to directly.  \throws IoError
 void write_file(const std::filesystem::path& path, std::string_view content);
 
-}  // namespace rejoin::cli
+}  // namespace rejoin

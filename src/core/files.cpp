@@ -1,20 +1,29 @@
-#include "cli/files.hpp"
+#include "core/files.hpp"
 
-#include <fmt/core.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <string>
 
 #include "core/error.hpp"
 
-namespace rejoin::cli {
+namespace rejoin {
 namespace fs = std::filesystem;
 namespace {
 
+/// A name beside `path` that no other process and no other thread of this one uses.
 fs::path beside(const fs::path& path) {
-  return fmt::format("{}.{}.part", path.string(), getpid());
+  static std::atomic<unsigned> count{0};
+  fs::path result = path;
+  result += '.';
+  result += std::to_string(getpid());
+  result += '.';
+  result += std::to_string(count++);
+  result += ".part";
+  return result;
 }
 
 bool is_device(const fs::path& path) {
@@ -23,8 +32,8 @@ bool is_device(const fs::path& path) {
 }
 
 [[noreturn]] void refuse(const fs::path& path, int reason) {
-  throw IoError(path.string(), fmt::format("cannot be written ({})", std::strerror(reason)),
-                "choose another place");
+  throw IoError(path.string(), std::string("cannot be written (") + std::strerror(reason) + ")",
+                "check the folder, its permissions and its space, or choose another place");
 }
 
 }  // namespace
@@ -75,4 +84,4 @@ void write_file(const fs::path& path, std::string_view content) {
   }
 }
 
-}  // namespace rejoin::cli
+}  // namespace rejoin

@@ -1,0 +1,85 @@
+#include "core/files.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace rejoin {
+namespace {
+namespace fs = std::filesystem;
+
+class Files : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (fs::temp_directory_path() / "rejoin-files-XXXXXX").string();
+    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  static std::string read(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  std::ptrdiff_t entries() const { return std::distance(fs::directory_iterator(folder_), {}); }
+
+  fs::path folder_;
+};
+
+TEST_F(Files, WrittenFileHoldsTheBytesAndLeavesNothingBeside) {
+  const std::string bytes("a\0b\r\n", 5);
+  write_file(folder_ / "x", "an older and longer content");
+  write_file(folder_ / "x", bytes);
+  EXPECT_EQ(read(folder_ / "x"), bytes);
+  EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(Files, RefusedFileLeavesNothing) {
+  EXPECT_THROW(write_file(folder_ / "no" / "x", "bytes"), IoError);
+  fs::create_directories(folder_ / "taken" / "inside");
+  EXPECT_THROW(write_file(folder_ / "taken", "bytes"), IoError);
+  EXPECT_THROW(require_writable_file(folder_ / "taken"), IoError);
+  EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(Files, FullDeviceIsAnErrorThatNamesIt) {
+  try {
+    write_file("/dev/full", std::string(1U << 16U, 'x'));
+    FAIL() << "a full device took the bytes";
+  } catch (const IoError& error) {
+    EXPECT_NE(std::string(error.what()).find("/dev/full"), std::string::npos);
+  }
+}
+
+TEST_F(Files, ThreadsThatWriteTheSameFileLeaveOneWholeContent) {
+  std::vector<std::thread> writers;
+  writers.reserve(4);
+  for (char c = 'a'; c < 'e'; ++c) {
+    writers.emplace_back([this, c] {
+      for (int k = 0; k < 50; ++k) write_file(folder_ / "x", std::string(10000, c));
+    });
+  }
+  for (std::thread& writer : writers) writer.join();
+  const std::string text = read(folder_ / "x");
+  EXPECT_EQ(text, std::string(10000, text.at(0)));
+  EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(Files, RequiredFolderIsMadeWithItsParents) {
+  require_writable_folder(folder_ / "a" / "b");
+  EXPECT_TRUE(fs::is_directory(folder_ / "a" / "b"));
+  EXPECT_TRUE(fs::is_empty(folder_ / "a" / "b"));
+  write_file(folder_ / "file", "x");
+  EXPECT_THROW(require_writable_folder(folder_ / "file"), IoError);
+}
+
+}  // namespace
+}  // namespace rejoin
