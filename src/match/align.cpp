@@ -13,10 +13,12 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 constexpr float kFacing = -0.5F;     // facing normals differ from opposite by at most 60 degrees
+constexpr int kBodySamples = 4000;   // of B that are asked whether they lie inside A
 constexpr double kWallNear = 1.2;    // wall thicknesses from the seam in which walls are compared
 constexpr double kWallClear = 0.25;  // wall thicknesses next to the seam that are left out: worn edges lie
 constexpr float kWallAlike = 0.7F;   // wall normals across a seam differ by at most 45 degrees
 constexpr double kWallWeight = 0.1;
+constexpr double kWallStep = 0.3;  // wall thicknesses by which walls that go on may be offset
 
 /// Samples of one class of one fragment.
 struct Cloud {
@@ -32,7 +34,15 @@ struct Side {
   std::unique_ptr<mesh::PointIndex> broken_index;
   std::unique_ptr<mesh::PointIndex> wall_index;
   std::unique_ptr<mesh::PointIndex> body_index;
+  std::vector<std::uint32_t> all_walls;                     ///< 0, 1, ... into `walls`
+  std::vector<std::uint32_t> all_broken;                    ///< 0, 1, ... into `broken`
+  std::vector<std::vector<std::uint32_t>> broken_of_facet;  ///< into `broken`
   double sample_area = 0;
+
+  /// The broken samples of one facet; of all for -1.
+  const std::vector<std::uint32_t>& broken_of(int facet) const {
+    return facet < 0 ? all_broken : broken_of_facet[static_cast<std::size_t>(facet)];
+  }
 };
 
 glm::vec3 apply(const glm::mat3& r, const glm::vec3& t, const glm::vec3& p) {
@@ -46,9 +56,15 @@ Side side_of(const Fragment& fragment, double edge_radius) {
   side.body.points = s.samples.points;
   side.body.normals = s.normals;
   side.body_index = std::make_unique<mesh::PointIndex>(side.body.points);
+  side.broken_of_facet.resize(s.facets.size());
   std::vector<std::uint32_t> near;
   for (std::size_t i = 0; i < s.samples.size(); ++i) {
     if (s.surface[i] != mesh::Surface::Fracture) continue;
+    const auto number = static_cast<std::uint32_t>(side.broken.points.size());
+    side.all_broken.push_back(number);
+    if (s.facet_of_sample[i] >= 0) {
+      side.broken_of_facet[static_cast<std::size_t>(s.facet_of_sample[i])].push_back(number);
+    }
     side.broken.points.push_back(s.samples.points[i]);
     side.broken.normals.push_back(s.normals[i]);
     side.body_index->within(s.samples.points[i], static_cast<float>(edge_radius), near);
@@ -64,6 +80,7 @@ Side side_of(const Fragment& fragment, double edge_radius) {
       if (!seam || seam->second < kWallClear * s.wall_thickness ||
           seam->second > kWallNear * s.wall_thickness)
         continue;
+      side.all_walls.push_back(static_cast<std::uint32_t>(side.walls.points.size()));
       side.walls.points.push_back(s.samples.points[i]);
       side.walls.normals.push_back(s.normals[i]);
     }
@@ -133,15 +150,16 @@ struct Joint::Impl {
 
   /// B's samples that lie within `reach` of A's box can matter; every nth of them if there are more than
   /// `most`.
-  std::vector<std::uint32_t> chosen(const Cloud& cloud, const mesh::PointIndex& index, const Rigid& pose,
-                                    double reach, int most) const {
+  std::vector<std::uint32_t> chosen(const Cloud& cloud, const std::vector<std::uint32_t>& from,
+                                    const mesh::PointIndex& index, const Rigid& pose, double reach,
+                                    int most) const {
     const glm::mat3 r(pose.rotation);
     const glm::vec3 t(pose.translation);
     std::vector<std::uint32_t> list;
-    const std::size_t step = stride(cloud.points.size(), 8 * most);
-    for (std::size_t i = 0; i < cloud.points.size(); i += step) {
-      const auto hit = index.nearest(apply(r, t, cloud.points[i]));
-      if (hit && static_cast<double>(hit->second) < reach) list.push_back(static_cast<std::uint32_t>(i));
+    const std::size_t step = stride(from.size(), 8 * most);
+    for (std::size_t i = 0; i < from.size(); i += step) {
+      const auto hit = index.nearest(apply(r, t, cloud.points[from[i]]));
+      if (hit && static_cast<double>(hit->second) < reach) list.push_back(from[i]);
     }
     if (most > 0 && list.size() > static_cast<std::size_t>(most)) {
       std::vector<std::uint32_t> fewer;
@@ -154,12 +172,14 @@ struct Joint::Impl {
   }
 
   void add_broken(System& system, const Rigid& pose, const glm::dvec3& pivot,
-                  const std::vector<std::uint32_t>& list, double reach) const {
+                  const std::vector<std::uint32_t>& list, double reach, bool core_only) const {
     const glm::mat3 r(pose.rotation);
     const glm::vec3 t(pose.translation);
     for (const auto i : list) {
+      if (core_only && b.broken.edge[i]) continue;
       const glm::vec3 p = apply(r, t, b.broken.points[i]);
       const auto hit = a.broken_index->nearest(p);
+      if (hit && core_only && a.broken.edge[hit->first]) continue;
       if (!hit || static_cast<double>(hit->second) > 1.5 * reach) continue;
       const glm::vec3 n = a.broken.normals[hit->first];
       if (glm::dot(n, r * b.broken.normals[i]) > kFacing) continue;
@@ -186,9 +206,10 @@ struct Joint::Impl {
     }
   }
 
-  void look_at_contact(const Rigid& pose, int most_samples, Evidence& e) const;
-  void look_for_penetration(const Rigid& pose, Evidence& e) const;
-  void look_at_walls(const Rigid& pose, Evidence& e) const;
+  void look_at_contact(const Rigid& pose, const std::vector<std::uint32_t>& from, int most_samples,
+                       Evidence& e) const;
+  void look_for_penetration(const Rigid& pose, int most_samples, Evidence& e) const;
+  void look_at_walls(const Rigid& pose, int most_samples, Evidence& e) const;
 };
 
 Joint::Joint(const Fragment& a, const Fragment& b) : impl_(std::make_unique<Impl>()) {
@@ -199,7 +220,7 @@ Joint::Joint(const Fragment& a, const Fragment& b) : impl_(std::make_unique<Impl
   d.spacing = std::max(a.facets.samples.spacing, b.facets.samples.spacing);
   const double scan = std::max(a.resolution, b.resolution);
   d.tolerance = std::max(d.thickness > 0 ? 0.05 * d.thickness : 0.15 * d.spacing, 0.3 * scan);
-  d.noise = 0.15 * scan;
+  d.noise = 0.05 * scan;
   d.patch = std::max({0.5 * d.thickness, 2.5 * d.spacing, 2.5 * scan});
   const double edge = std::max(0.2 * d.thickness, 1.2 * d.spacing);
   d.a = side_of(a, edge);
@@ -215,10 +236,10 @@ double Joint::tolerance() const {
 Rigid Joint::align(const Rigid& start, const AlignOptions& options) const {
   const Impl& d = *impl_;
   Rigid pose = start;
-  const auto list =
-      d.chosen(d.b.broken, *d.a.broken_index, pose, 2.0 * options.reach_start, options.most_samples);
+  const auto list = d.chosen(d.b.broken, d.b.broken_of(options.facet_b), *d.a.broken_index, pose,
+                             2.0 * options.reach_start, options.most_samples);
   const auto walls = d.thickness > 0
-                         ? d.chosen(d.b.walls, *d.a.wall_index, pose,
+                         ? d.chosen(d.b.walls, d.b.all_walls, *d.a.wall_index, pose,
                                     kWallNear * d.thickness + options.reach_start, options.most_samples)
                          : std::vector<std::uint32_t>{};
   if (list.size() < 12) return pose;
@@ -229,7 +250,7 @@ Rigid Joint::align(const Rigid& start, const AlignOptions& options) const {
     for (const auto i : list) pivot += pose(glm::dvec3(d.b.broken.points[i]));
     pivot /= static_cast<double>(list.size());
     System system;
-    d.add_broken(system, pose, pivot, list, reach);
+    d.add_broken(system, pose, pivot, list, reach, options.core_only);
     if (system.weight < 6.0) break;
     if (d.thickness > 0) d.add_walls(system, pose, pivot, walls, reach);
     // A little resistance keeps directions still that nothing holds (sliding on a plane).
@@ -276,28 +297,29 @@ std::vector<double> heights_above_quadric(const std::vector<glm::dvec3>& points,
 
 }  // namespace
 
-Evidence Joint::evidence(const Rigid& pose, int most_samples) const {
+Evidence Joint::evidence(const Rigid& pose, int most_samples, int facet_b) const {
   const Impl& d = *impl_;
   Evidence e;
-  d.look_at_contact(pose, most_samples, e);
-  d.look_for_penetration(pose, e);
-  if (d.thickness > 0) d.look_at_walls(pose, e);
+  e.tolerance = d.tolerance;
+  d.look_at_contact(pose, d.b.broken_of(facet_b), most_samples, e);
+  d.look_for_penetration(pose, most_samples > 0 ? std::min(most_samples, kBodySamples) : kBodySamples, e);
+  if (d.thickness > 0) d.look_at_walls(pose, most_samples, e);
   return e;
 }
 
-void Joint::Impl::look_at_contact(const Rigid& pose, int most_samples, Evidence& e) const {
+void Joint::Impl::look_at_contact(const Rigid& pose, const std::vector<std::uint32_t>& from, int most_samples,
+                                  Evidence& e) const {
   const glm::mat3 r(pose.rotation);
   const glm::vec3 t(pose.translation);
   std::vector<double> gaps;
   std::vector<double> core_gaps;
   std::vector<glm::dvec3> core;
   glm::dvec3 normal(0.0);
-  glm::dvec3 low(1e300);
-  glm::dvec3 high(-1e300);
   double touching = 0.0;
-  const std::size_t step = stride(b.broken.points.size(), most_samples);
+  const std::size_t step = stride(from.size(), most_samples);
   const double share = static_cast<double>(step) * b.sample_area;
-  for (std::size_t i = 0; i < b.broken.points.size(); i += step) {
+  for (std::size_t k = 0; k < from.size(); k += step) {
+    const std::uint32_t i = from[k];
     const glm::vec3 p = apply(r, t, b.broken.points[i]);
     const auto hit = a.broken_index->nearest(p);
     if (!hit) continue;
@@ -315,12 +337,9 @@ void Joint::Impl::look_at_contact(const Rigid& pose, int most_samples, Evidence&
     }
     if (std::abs(gap) > tolerance) continue;
     touching += 1.0;
-    low = glm::min(low, glm::dvec3(p));
-    high = glm::max(high, glm::dvec3(p));
   }
   e.contact_area = touching * share;
   e.shared_area = static_cast<double>(gaps.size()) * share;
-  if (touching > 0) e.length = glm::length(high - low);
   e.gap_median = median(gaps);
   if (glm::length(normal) > 0) e.normal = glm::normalize(normal);
   if (core.size() < 12 || !(glm::length(normal) > 0)) return;
@@ -332,11 +351,11 @@ void Joint::Impl::look_at_contact(const Rigid& pose, int most_samples, Evidence&
       std::log((e.relief * e.relief + noise * noise) / (e.gap_spread * e.gap_spread + noise * noise));
 }
 
-void Joint::Impl::look_for_penetration(const Rigid& pose, Evidence& e) const {
+void Joint::Impl::look_for_penetration(const Rigid& pose, int most_samples, Evidence& e) const {
   const glm::mat3 r(pose.rotation);
   const glm::vec3 t(pose.translation);
   const double deepest = thickness > 0 ? 0.6 * thickness : 8.0 * spacing;
-  const std::size_t step = std::max<std::size_t>(1, b.body.points.size() / 4000);
+  const std::size_t step = stride(b.body.points.size(), most_samples);
   double inside = 0.0;
   double depth = 0.0;
   for (std::size_t i = 0; i < b.body.points.size(); i += step) {
@@ -353,13 +372,13 @@ void Joint::Impl::look_for_penetration(const Rigid& pose, Evidence& e) const {
   e.penetration = inside > 0 ? depth / inside : 0.0;
 }
 
-void Joint::Impl::look_at_walls(const Rigid& pose, Evidence& e) const {
+void Joint::Impl::look_at_walls(const Rigid& pose, int most_samples, Evidence& e) const {
   const glm::mat3 r(pose.rotation);
   const glm::vec3 t(pose.translation);
-  double squares = 0.0;
   double found = 0.0;
   double all = 0.0;
-  for (std::size_t i = 0; i < b.walls.points.size(); ++i) {
+  const std::size_t step = stride(b.walls.points.size(), most_samples);
+  for (std::size_t i = 0; i < b.walls.points.size(); i += step) {
     const glm::vec3 p = apply(r, t, b.walls.points[i]);
     const auto seam = a.broken_index->nearest(p);
     if (!seam || static_cast<double>(seam->second) > kWallNear * thickness) continue;
@@ -368,13 +387,10 @@ void Joint::Impl::look_at_walls(const Rigid& pose, Evidence& e) const {
     if (!hit || static_cast<double>(hit->second) > 2.0 * kWallNear * thickness) continue;
     const glm::dvec3 n_b(r * b.walls.normals[i]);
     const glm::dvec3 n_a(a.walls.normals[hit->first]);
-    if (glm::dot(n_a, n_b) < kWallAlike) continue;
+    if (glm::dot(n_a, n_b) < static_cast<double>(kWallAlike)) continue;
     const double offset = glm::dot(glm::dvec3(p - a.walls.points[hit->first]), glm::normalize(n_a + n_b));
-    if (std::abs(offset) > 0.3 * thickness) continue;
-    squares += offset * offset;
-    found += 1.0;
+    if (std::abs(offset) < kWallStep * thickness) found += 1.0;
   }
-  if (found > 0) e.wall_step = std::sqrt(squares / found);
   if (all > 0) e.wall_share = found / all;
 }
 

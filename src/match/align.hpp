@@ -13,6 +13,8 @@ struct AlignOptions {
   double reach_end = 0;    ///< nor than this in the end
   int iterations = 12;
   int most_samples = 400;  ///< of B's samples; 0: all
+  bool core_only = false;  ///< leave out what is next to another facet: worn edges lie
+  int facet_b = -1;        ///< only samples of this facet of B; -1: of all its broken surface
 };
 
 /// What speaks for a joint and what against it, at one pose.  Areas in squared mesh units.
@@ -28,10 +30,10 @@ struct Evidence {
           ///< n = independent patches of the shared area.  Flat on flat gives none.
   double penetration = 0;  ///< mean depth of what lies inside the other body, mesh units; 0 if nothing does
   double penetration_area = 0;  ///< surface of B that lies clearly inside A's body
-  double wall_step = 0;         ///< thin pieces: rms offset of the walls across the seam, mesh units
-  double wall_share = 0;        ///< thin pieces: share of the walls at the seam that go on on the other side
-  double length = 0;            ///< longest extent of the contact, mesh units
-  glm::dvec3 normal{0.0};       ///< mean outward normal of A's shared surface, unit; 0 without any
+  /// Thin pieces: share of the walls at the seam that go on on the other side; 1 for solid ones or without walls.
+  double wall_share = 1;
+  double tolerance = 0;    ///< distance below which the surfaces touch, mesh units
+  glm::dvec3 normal{0.0};  ///< mean outward normal of A's shared surface, unit; 0 without any
 };
 
 /// Two prepared fragments, indexed for alignment.  Poses are B -> A, both relative to their mesh's origin.
@@ -47,7 +49,8 @@ class Joint {
   Rigid align(const Rigid& start, const AlignOptions& options) const;
 
   /// \param most_samples  of B's samples are looked at; 0: all
-  Evidence evidence(const Rigid& pose, int most_samples) const;
+  /// \param facet_b       only samples of this facet of B touch; -1: all its broken surface
+  Evidence evidence(const Rigid& pose, int most_samples, int facet_b = -1) const;
 
   /// Distance below which surfaces touch: a tenth of the wall of thin pieces, or what the scans can tell.
   double tolerance() const;

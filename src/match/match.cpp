@@ -1,6 +1,7 @@
 #include "match/match.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 
@@ -18,7 +19,6 @@ constexpr double kFacetSpread_deg =
     25.0;  // how far a facet's mean normal may lie from the direction that a user sees
 
 constexpr std::size_t kEvenIfCancelled = 6;
-constexpr int kQuickSamples = 1500;  // of B's broken surface while there are many hypotheses
 
 /// A pose on its way through the stages; relative to the meshes' origins.
 struct Hypothesis {
@@ -116,17 +116,26 @@ void sort_by_strength(std::vector<Hypothesis>& list) {
                    [](const Hypothesis& x, const Hypothesis& y) { return x.strength > y.strength; });
 }
 
+/// One round of alignment over all hypotheses that are left.
+struct Pass {
+  AlignOptions align;
+  int evidence_samples = 0;  ///< of B that are looked at; 0: all
+  bool facet_only = false;   ///< only the facet of B that the hypothesis came from
+};
+
 /// Aligns every hypothesis and weighs its evidence.  After a cancel only the first few still are, so that what was found is
 /// not lost; the others are dropped.
-void refine(std::vector<Hypothesis>& list, const Joint& joint, const AlignOptions& options,
-            const Context& context) {
+void refine(std::vector<Hypothesis>& list, const Joint& joint, const Pass& pass, const Context& context) {
   std::vector<char> done(list.size(), 0);
   parallel_for(list.size(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
       if (context.cancelled() && k >= kEvenIfCancelled) continue;
-      list[k].pose = joint.align(list[k].pose, options);
-      list[k].evidence = joint.evidence(list[k].pose, options.most_samples > 0 ? kQuickSamples : 0);
-      list[k].strength = strength(list[k].evidence);
+      Hypothesis& hypothesis = list[k];
+      AlignOptions options = pass.align;
+      options.facet_b = pass.facet_only ? hypothesis.facet_b : -1;
+      hypothesis.pose = joint.align(hypothesis.pose, options);
+      hypothesis.evidence = joint.evidence(hypothesis.pose, pass.evidence_samples, options.facet_b);
+      hypothesis.strength = strength(hypothesis.evidence);
       done[k] = 1;
     }
   });
@@ -168,13 +177,22 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
                                                     : run_esa(a, b, options, context, result);
   clock.lap("search");
 
-  const double tolerance = joint.tolerance();
   context.report("align", 0.5);
-  refine(hypotheses, joint, {24.0 * tolerance, 4.0 * tolerance, 16, 300}, context);
+  const double t = joint.tolerance();
   const double diameter = std::max(a.diameter, b.diameter);
-  hypotheses = distinct(hypotheses, b, diameter, 2 * static_cast<std::size_t>(options.max_candidates));
-  if (!context.cancelled()) refine(hypotheses, joint, {12.0 * tolerance, 3.0 * tolerance, 20, 0}, context);
-  hypotheses = distinct(hypotheses, b, diameter, static_cast<std::size_t>(options.max_candidates));
+  const auto most = static_cast<std::size_t>(options.max_candidates);
+  // Each pass costs more a hypothesis and keeps fewer.  A reach much wider than the sweep's error would pull in
+  // surfaces beside the joint, the other wall of a thin piece above all; so would other facets at first.
+  const std::array<Pass, 4> passes{{{{10.0 * t, 4.0 * t, 8, 120}, 300, true},
+                                    {{8.0 * t, 3.0 * t, 12, 300}, 1500, true},
+                                    {{6.0 * t, 2.0 * t, 20, 0}, 0, false},
+                                    {{3.0 * t, 1.0 * t, 15, 0, true}, 0, false}}};
+  const std::array<std::size_t, 4> kept{10 * most, 3 * most, most, most};
+  for (std::size_t k = 0; k < passes.size(); ++k) {
+    if (k > 0 && context.cancelled()) break;
+    refine(hypotheses, joint, passes[k], context);
+    hypotheses = distinct(hypotheses, b, diameter, kept[k]);
+  }
   clock.lap("align");
 
   context.report("verify", 0.8);

@@ -10,8 +10,10 @@
 namespace rejoin::match {
 namespace {
 
-constexpr double kEven = 11.0;  // strength at which a joint is as likely as not
-constexpr double kSlope = 1.5;  // strength that multiplies the odds by e
+constexpr double kLoose = 0.5;      // gap spread, in tolerances, that halves what a joint is worth
+constexpr double kWallsGoOn = 0.8;  // share of the walls that go on across a true seam, at least
+constexpr double kEven = 6.0;       // strength at which a joint is as likely as not
+constexpr double kSlope = 0.75;     // strength that multiplies the odds by e
 constexpr double kSure = 0.97;
 constexpr double kPossible = 0.3;
 
@@ -19,8 +21,12 @@ constexpr double kPossible = 0.3;
 
 double strength(const Evidence& evidence) {
   const double against = evidence.shared_area + evidence.penetration_area;
-  const double touching = against > 0 ? evidence.contact_area / against : 0.0;
-  return evidence.information * touching * touching;
+  if (against <= 0 || evidence.tolerance <= 0) return 0.0;
+  const double touching = evidence.contact_area / against;
+  const double loose = evidence.gap_spread / (kLoose * evidence.tolerance);
+  const double walls = std::min(1.0, evidence.wall_share / kWallsGoOn);
+  return evidence.information * touching * touching * touching * touching * walls * walls /
+         (1.0 + loose * loose * loose * loose);
 }
 
 double score_of(double strength) {
