@@ -1,0 +1,118 @@
+#include "store/detail/rows.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace rejoin::store::detail {
+namespace {
+
+/// What was not measured is infinite here and NULL there, as not every tool can show an infinity.
+double measured(const SQLite::Column& column) {
+  return column.isNull() ? std::numeric_limits<double>::infinity() : column.getDouble();
+}
+
+void bind_measured(SQLite::Statement& statement, int index, double value) {
+  if (std::isfinite(value)) {
+    statement.bind(index, value);
+  } else {
+    statement.bind(index);
+  }
+}
+
+std::array<double, 7> figures(const Candidate& c) {
+  return {c.depth, c.slope, c.raycast, c.overlap, c.contact_area, c.gap_median, c.penetration};
+}
+
+}  // namespace
+
+const char* name_of(FragmentState state) {
+  switch (state) {
+    case FragmentState::Ready:
+      return "ready";
+    case FragmentState::Bad:
+      return "bad";
+    case FragmentState::Waiting:
+      break;
+  }
+  return "waiting";
+}
+
+const char* name_of(Stage stage) {
+  switch (stage) {
+    case Stage::Sweep:
+      return "sweep";
+    case Stage::Match:
+      return "match";
+    case Stage::Failed:
+      break;
+  }
+  return "failed";
+}
+
+FragmentState fragment_state(const std::string& name) {
+  if (name == "ready") return FragmentState::Ready;
+  return name == "bad" ? FragmentState::Bad : FragmentState::Waiting;
+}
+
+Stage stage(const std::string& name) {
+  if (name == "sweep") return Stage::Sweep;
+  return name == "match" ? Stage::Match : Stage::Failed;
+}
+
+std::string placeholders() {
+  const std::string columns = kCandidateColumns;
+  std::string text = ", ?";
+  for (const char c : columns) text += c == ',' ? ", ?" : "";
+  return text;
+}
+
+Fragment fragment_from(SQLite::Statement& row) {
+  Fragment fragment;
+  fragment.id = row.getColumn(0).getInt64();
+  fragment.name = row.getColumn(1).getString();
+  fragment.path = row.getColumn(2).getString();
+  fragment.hash = row.getColumn(3).getString();
+  fragment.faces = row.getColumn(4).getInt64();
+  fragment.diameter = row.getColumn(5).getDouble();
+  fragment.state = fragment_state(row.getColumn(6).getString());
+  fragment.error = row.getColumn(7).getString();
+  return fragment;
+}
+
+Candidate candidate_from(SQLite::Statement& row) {
+  Candidate candidate;
+  candidate.rank = row.getColumn(0).getInt();
+  candidate.score = row.getColumn(1).getDouble();
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) candidate.pose.rotation[j][i] = row.getColumn(2 + 4 * i + j).getDouble();
+    candidate.pose.translation[i] = row.getColumn(5 + 4 * i).getDouble();
+  }
+  candidate.facet_a = row.getColumn(18).getInt();
+  candidate.facet_b = row.getColumn(19).getInt();
+  candidate.depth = measured(row.getColumn(20));
+  candidate.slope = measured(row.getColumn(21));
+  candidate.raycast = measured(row.getColumn(22));
+  candidate.overlap = measured(row.getColumn(23));
+  candidate.contact_area = measured(row.getColumn(24));
+  candidate.gap_median = measured(row.getColumn(25));
+  candidate.penetration = measured(row.getColumn(26));
+  return candidate;
+}
+
+void bind_candidate(SQLite::Statement& statement, int first, const Candidate& candidate) {
+  int next = first;
+  statement.bind(next++, candidate.rank);
+  statement.bind(next++, candidate.score);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) statement.bind(next++, candidate.pose.rotation[j][i]);
+    statement.bind(next++, candidate.pose.translation[i]);
+  }
+  for (const double value : {0.0, 0.0, 0.0, 1.0}) statement.bind(next++, value);
+  statement.bind(next++, candidate.facet_a);
+  statement.bind(next++, candidate.facet_b);
+  for (const double value : figures(candidate)) bind_measured(statement, next++, value);
+}
+
+}  // namespace rejoin::store::detail

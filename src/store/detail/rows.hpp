@@ -1,0 +1,33 @@
+/// Between rows and records.
+#pragma once
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <string>
+
+#include "store/records.hpp"
+
+namespace rejoin::store::detail {
+
+/// Columns of fragment_from(), in its order.
+inline constexpr const char* kFragmentColumns = "id, name, path, hash, faces, diameter, state, error";
+/// Columns of candidate_from(), in its order; bind_candidate() binds the same after a and b.
+inline constexpr const char* kCandidateColumns =
+    "rank, score, m11, m12, m13, m14, m21, m22, m23, m24, m31, m32, m33, m34, m41, m42, m43, m44, facet_a, "
+    "facet_b, depth, "
+    "slope, raycast, overlap, contact_area, gap_median, penetration";
+/// ", ?" for each of kCandidateColumns.
+std::string placeholders();
+
+const char* name_of(FragmentState state);
+const char* name_of(Stage stage);
+FragmentState fragment_state(const std::string& name);
+Stage stage(const std::string& name);
+
+Fragment fragment_from(SQLite::Statement& row);
+Candidate candidate_from(SQLite::Statement& row);
+
+/// Binds the columns of kCandidateColumns to parameters first, first + 1, ...
+void bind_candidate(SQLite::Statement& statement, int first, const Candidate& candidate);
+
+}  // namespace rejoin::store::detail

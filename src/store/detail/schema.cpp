@@ -1,0 +1,134 @@
+#include "store/detail/schema.hpp"
+
+#include <fmt/format.h>
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include <cctype>
+
+#include "store/run.hpp"
+
+namespace rejoin::store::detail {
+namespace {
+
+constexpr int kApplication = 0x726a6e31;  // "rjn1": `file` and others can tell what the database is
+
+constexpr const char* kTables = R"sql(
+CREATE TABLE run (
+  id INTEGER PRIMARY KEY CHECK (id = 1),
+  version TEXT NOT NULL,
+  parameters TEXT NOT NULL,
+  seed INTEGER NOT NULL,
+  shard TEXT NOT NULL
+);
+CREATE TABLE fragment (
+  id INTEGER PRIMARY KEY,
+  name TEXT NOT NULL UNIQUE,
+  path TEXT NOT NULL,
+  hash TEXT NOT NULL,
+  faces INTEGER NOT NULL,
+  diameter REAL NOT NULL,
+  state TEXT NOT NULL CHECK (state IN ('waiting', 'ready', 'bad')),
+  error TEXT NOT NULL
+);
+CREATE TABLE pair (
+  a INTEGER NOT NULL REFERENCES fragment ON DELETE CASCADE,
+  b INTEGER NOT NULL REFERENCES fragment ON DELETE CASCADE,
+  stage TEXT NOT NULL CHECK (stage IN ('sweep', 'match', 'failed')),
+  evidence REAL NOT NULL,
+  score REAL NOT NULL,
+  verdict TEXT NOT NULL,
+  seconds REAL NOT NULL,
+  error TEXT NOT NULL,
+  result TEXT NOT NULL,
+  PRIMARY KEY (a, b)
+) WITHOUT ROWID;
+CREATE INDEX pair_of_b ON pair (b);
+CREATE TABLE candidate (
+  a INTEGER NOT NULL,
+  b INTEGER NOT NULL,
+  rank INTEGER NOT NULL,
+  score REAL NOT NULL,
+  m11 REAL NOT NULL, m12 REAL NOT NULL, m13 REAL NOT NULL, m14 REAL NOT NULL,
+  m21 REAL NOT NULL, m22 REAL NOT NULL, m23 REAL NOT NULL, m24 REAL NOT NULL,
+  m31 REAL NOT NULL, m32 REAL NOT NULL, m33 REAL NOT NULL, m34 REAL NOT NULL,
+  m41 REAL NOT NULL, m42 REAL NOT NULL, m43 REAL NOT NULL, m44 REAL NOT NULL,
+  facet_a INTEGER NOT NULL,
+  facet_b INTEGER NOT NULL,
+  depth REAL, slope REAL, raycast REAL, overlap REAL, contact_area REAL, gap_median REAL, penetration REAL,
+  PRIMARY KEY (a, b, rank),
+  FOREIGN KEY (a, b) REFERENCES pair ON DELETE CASCADE
+) WITHOUT ROWID;
+CREATE VIEW ranked AS
+  SELECT x.name AS a, y.name AS b, p.score, p.verdict, p.stage, p.evidence, p.seconds, p.error
+  FROM pair p JOIN fragment x ON x.id = p.a JOIN fragment y ON y.id = p.b
+  ORDER BY p.score DESC, x.name, y.name;
+INSERT INTO run VALUES (1, '', '{}', 1, '');
+)sql";
+
+int pragma(SQLite::Database& database, const char* name) {
+  return database.execAndGet(fmt::format("PRAGMA {}", name)).getInt();
+}
+
+const char* mend_of(int code) {
+  switch (code) {
+    case SQLITE_FULL:
+    case SQLITE_IOERR:
+      return "free some space or check the disk, then run the command again: it goes on where it stopped";
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      return "another rejoin works on this run; wait for its end";
+    case SQLITE_CORRUPT:
+    case SQLITE_NOTADB:
+      return "move the file away and run rejoin batch again";
+    default:
+      return "check the folder and its permissions";
+  }
+}
+
+}  // namespace
+
+void make_tables(SQLite::Database& database) {
+  SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+  if (pragma(database, "user_version") == 0 &&
+      database.execAndGet("SELECT count(*) FROM sqlite_master").getInt() == 0) {
+    database.exec(kTables);
+    database.exec(
+        fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", kApplication, kSchemaVersion));
+  }
+  transaction.commit();
+}
+
+void require_schema(SQLite::Database& database, const std::string& path) {
+  if (pragma(database, "application_id") != kApplication) {
+    throw StoreError(path, "is no database of a run", "give the folder that rejoin batch wrote");
+  }
+  const int version = pragma(database, "user_version");
+  if (version != kSchemaVersion) {
+    throw StoreError(path, fmt::format("has schema {}, this program knows {}", version, kSchemaVersion),
+                     "use the rejoin that wrote it, or run rejoin batch into a new folder");
+  }
+}
+
+std::filesystem::path database_file(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  return std::filesystem::is_directory(folder, ignored) ? folder / kFileName : folder;
+}
+
+std::string reading_address(const std::filesystem::path& file) {
+  std::string address = "file:";
+  for (const char c : std::filesystem::absolute(file).string()) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain = std::isalnum(byte) != 0 || c == '/' || c == '.' || c == '-' || c == '_';
+    address += plain ? std::string(1, c) : fmt::format("%{:02x}", byte);
+  }
+  const bool writable = access(std::filesystem::absolute(file).parent_path().c_str(), W_OK) == 0;
+  return address + (writable ? "?mode=ro" : "?immutable=1");
+}
+
+void fail(const SQLite::Exception& error, const std::string& path) {
+  throw StoreError(path, fmt::format("the database refuses ({})", error.what()),
+                   mend_of(error.getErrorCode() & 0xff));
+}
+
+}  // namespace rejoin::store::detail

@@ -1,0 +1,42 @@
+/// Tables of a run's database, and the one place that turns SQLite's errors into ours.
+#pragma once
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <filesystem>
+#include <string>
+
+#include "core/error.hpp"
+
+namespace rejoin::store::detail {
+
+/// Raised whenever a table changes its meaning; kept in PRAGMA user_version.
+inline constexpr int kSchemaVersion = 1;
+
+/// Makes the tables in an empty database; leaves one with tables alone.
+void make_tables(SQLite::Database& database);
+
+/// \throws StoreError the file is a database, but none of a run, or one of a newer schema
+void require_schema(SQLite::Database& database, const std::string& path);
+
+/// The database of a run's folder, or the file itself.
+std::filesystem::path database_file(const std::filesystem::path& folder);
+
+/// What SQLite is to open (with OPEN_URI) so that nothing is changed.  A database in WAL mode wants to write files beside it even for
+/// reading; where nobody may write, it can be read as it is, for then nobody changes it either.
+std::string reading_address(const std::filesystem::path& file);
+
+/// SQLite's error as ours, with a mend that fits.
+[[noreturn]] void fail(const SQLite::Exception& error, const std::string& path);
+
+/// Runs body; what SQLite throws becomes a StoreError.
+template <class Body>
+auto guarded(const std::string& path, const Body& body) {
+  try {
+    return body();
+  } catch (const SQLite::Exception& error) {
+    fail(error, path);
+  }
+}
+
+}  // namespace rejoin::store::detail

@@ -1,0 +1,130 @@
+#include "store/merge.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <string>
+
+#include "store/detail/rows.hpp"
+#include "store/detail/schema.hpp"
+#include "store/run.hpp"
+
+namespace rejoin::store {
+namespace fs = std::filesystem;
+namespace {
+
+/// Pairs and candidates of the attached run, its ids turned into ours by the fragments' names.
+constexpr const char* kCopyPairs = R"sql(
+INSERT OR REPLACE INTO main.pair (a, b, stage, evidence, score, verdict, seconds, error, result)
+  SELECT x.id, y.id, p.stage, p.evidence, p.score, p.verdict, p.seconds, p.error, p.result
+  FROM part.pair p
+  JOIN part.fragment u ON u.id = p.a JOIN main.fragment x ON x.name = u.name
+  JOIN part.fragment v ON v.id = p.b JOIN main.fragment y ON y.name = v.name
+)sql";
+
+std::string copy_candidates() {
+  return fmt::format(
+      "INSERT INTO main.candidate (a, b, {0}) SELECT x.id, y.id, {0} FROM part.candidate c "
+      "JOIN part.fragment u ON u.id = c.a JOIN main.fragment x ON x.name = u.name "
+      "JOIN part.fragment v ON v.id = c.b JOIN main.fragment y ON y.name = v.name",
+      detail::kCandidateColumns);
+}
+
+struct Whole {
+  Parameters parameters;
+  std::map<std::string, Fragment> fragments;
+};
+
+/// One look at all runs, before anything is written.
+Whole survey(const std::vector<fs::path>& runs) {
+  Whole whole;
+  for (const fs::path& folder : runs) {
+    const Run run = Run::open(folder);
+    if (&folder == &runs.front()) whole.parameters = run.parameters();
+    if (run.parameters() != whole.parameters) {
+      throw StoreError(
+          folder.string(),
+          fmt::format("was made with other parameters or by another version than {}", runs.front().string()),
+          "run its shard again like the others");
+    }
+    for (const Fragment& fragment : run.fragments()) {
+      Fragment& known = whole.fragments.try_emplace(fragment.name, fragment).first->second;
+      if (known.hash != fragment.hash) {
+        throw StoreError(folder.string(),
+                         fmt::format("knows another content of {} than the runs before it", fragment.name),
+                         "run the shards again that have the older file");
+      }
+      if (known.state == FragmentState::Waiting) known = fragment;
+    }
+  }
+  return whole;
+}
+
+/// The whole's fragments, numbered by name, without pairs.
+void make_fragments(const fs::path& folder, const Whole& whole) {
+  Run run = Run::write(folder);
+  std::vector<Fragment> list;
+  list.reserve(whole.fragments.size());
+  for (const auto& [name, fragment] : whole.fragments) list.push_back(fragment);
+  run.begin(whole.parameters, list);
+  for (Fragment made : run.fragments()) {
+    const std::int64_t id = made.id;
+    made = whole.fragments.at(made.name);
+    made.id = id;
+    run.save(made);
+  }
+}
+
+void copy_pairs(SQLite::Database& database, const fs::path& folder) {
+  SQLite::Statement attach(database, "ATTACH ? AS part");
+  attach.bind(1, detail::reading_address(detail::database_file(folder)));
+  attach.exec();
+  SQLite::Transaction transaction(database);
+  database.exec(kCopyPairs);
+  database.exec(copy_candidates());
+  transaction.commit();
+  database.exec("DETACH part");
+}
+
+Merged count(SQLite::Database& database) {
+  const auto number = [&database](const char* query) {
+    return static_cast<std::size_t>(database.execAndGet(query).getInt64());
+  };
+  return {number("SELECT count(*) FROM fragment"), number("SELECT count(*) FROM pair"),
+          number("SELECT count(*) FROM pair WHERE stage = 'failed'")};
+}
+
+/// Puts the new database in the place of the old one, whose journal must not be taken for the new one's.
+void put_in_place(const fs::path& part, const fs::path& output) {
+  { const Run settled = Run::write(output); }
+  std::error_code problem;
+  fs::rename(part / kFileName, output / kFileName, problem);
+  if (problem) {
+    throw StoreError((output / kFileName).string(),
+                     fmt::format("cannot be put in place ({})", problem.message()),
+                     "check the folder and its permissions");
+  }
+  fs::remove_all(part, problem);
+}
+
+}  // namespace
+
+Merged merge(const std::vector<fs::path>& runs, const fs::path& output) {
+  const Whole whole = survey(runs);
+  const fs::path part = output / "merge.part";
+  std::error_code ignored;
+  fs::remove_all(part, ignored);
+  fs::create_directories(part, ignored);
+  make_fragments(part, whole);
+  const std::string path = (part / kFileName).string();
+  const Merged merged = detail::guarded(path, [&] {
+    SQLite::Database database(path, SQLite::OPEN_READWRITE | SQLite::OPEN_URI);
+    database.exec("PRAGMA foreign_keys = ON");
+    for (const fs::path& folder : runs) copy_pairs(database, folder);
+    return count(database);
+  });
+  put_in_place(part, output);
+  return merged;
+}
+
+}  // namespace rejoin::store

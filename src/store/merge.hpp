@@ -1,0 +1,24 @@
+/// Putting shards together.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+namespace rejoin::store {
+
+struct Merged {
+  std::size_t fragments = 0;  ///< in the whole
+  std::size_t pairs = 0;
+  std::size_t failed = 0;  ///< of the pairs
+};
+
+/// Copies all fragments and pairs of the runs into one.  Pairs that several have are taken once; fragments are numbered by name, as a single run
+/// over all of them numbers them.  The whole replaces what the output held, and is there completely or not at all.
+/// \param runs    folders of runs, at least one, made with the same parameters; the output may be one of them
+/// \param output  an existing folder
+/// \throws StoreError runs were made with other parameters or by another version, a fragment of the same name has another content in two of
+///         them, or a database cannot be used
+Merged merge(const std::vector<std::filesystem::path>& runs, const std::filesystem::path& output);
+
+}  // namespace rejoin::store

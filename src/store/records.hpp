@@ -1,0 +1,77 @@
+/// What a run's database holds, as plain values.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include "core/rigid.hpp"
+
+namespace rejoin::store {
+
+/// By what the results were made.  Results of other parameters are never mixed in one database.
+struct Parameters {
+  std::string version;     ///< of the program
+  std::string json;        ///< all that has an influence on the results, but for the seed
+  std::uint64_t seed = 1;  ///< of the random numbers
+
+  bool operator==(const Parameters&) const = default;
+};
+
+enum class FragmentState {
+  Waiting,  ///< not looked at yet
+  Ready,    ///< could be made ready for matching
+  Bad,      ///< its file is unusable; `error` says why
+};
+
+struct Fragment {
+  std::int64_t id = 0;  ///< > 0 in a database; 0: none yet
+  std::string name;     ///< the file's name in its folder, unique in the run
+  std::string path;     ///< where it was read
+  std::string hash;     ///< of the file's content, hexadecimal
+  std::int64_t faces = 0;
+  double diameter = 0;  ///< mesh units
+  FragmentState state = FragmentState::Waiting;
+  std::string error;  ///< one line, empty unless Bad
+
+  bool operator==(const Fragment&) const = default;
+};
+
+/// How far a pair was taken.
+enum class Stage {
+  Sweep,   ///< the cheap sweep found too little for more
+  Match,   ///< searched in full
+  Failed,  ///< `error` says why; not tried again while the inputs stay
+};
+
+struct Pair {
+  std::int64_t a = 0;  ///< fragment ids, a's name before b's
+  std::int64_t b = 0;
+  std::string name_a;
+  std::string name_b;
+  Stage stage = Stage::Failed;
+  double evidence = 0;  ///< what the cheap sweep found (its unit is the stage's own); 0 where it was not run
+  double score = 0;     ///< 0 .. 1, comparable across pairs
+  std::string verdict;  ///< "join", "unsure" or "no join"; empty if it failed
+  double seconds = 0;   ///< spent on it, all stages
+  std::string error;    ///< one line, empty unless Failed
+  std::string result;   ///< JSON: evaluations, backend, warnings
+};
+
+/// A pose at which a pair may join.  Figures that were not measured are infinite.
+struct Candidate {
+  int rank = 0;  ///< from 1, best first
+  double score = 0;
+  Rigid pose;  ///< B's file coordinates -> A's file coordinates
+  int facet_a = -1;
+  int facet_b = -1;
+  double depth = std::numeric_limits<double>::infinity();    ///< slope difference per pixel step
+  double slope = std::numeric_limits<double>::infinity();    ///< the same as a slope
+  double raycast = std::numeric_limits<double>::infinity();  ///< slope difference by ray casting
+  double overlap = 0;                                        ///< fraction of the smaller silhouette
+  double contact_area = 0;                                   ///< squared mesh units
+  double gap_median = 0;                                     ///< mesh units
+  double penetration = 0;                                    ///< mesh units
+};
+
+}  // namespace rejoin::store

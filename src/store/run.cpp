@@ -1,0 +1,280 @@
+#include "store/run.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <optional>
+
+#include "store/detail/lock.hpp"
+#include "store/detail/rows.hpp"
+#include "store/detail/schema.hpp"
+
+namespace rejoin::store {
+namespace fs = std::filesystem;
+
+struct Run::Access {
+  std::string path;
+  std::optional<detail::WriteLock> lock;
+  std::optional<SQLite::Database> database;
+
+  SQLite::Statement query(const std::string& text) { return {*database, text}; }
+};
+
+namespace {
+
+constexpr int kPatience_ms = 60000;  // while a reader's checkpoint or a copy holds the file
+
+std::vector<Fragment> all_fragments(SQLite::Database& database) {
+  SQLite::Statement rows(database,
+                         fmt::format("SELECT {} FROM fragment ORDER BY name", detail::kFragmentColumns));
+  std::vector<Fragment> list;
+  while (rows.executeStep()) list.push_back(detail::fragment_from(rows));
+  return list;
+}
+
+Parameters read_parameters(SQLite::Database& database) {
+  SQLite::Statement row(database, "SELECT version, parameters, seed FROM run");
+  if (!row.executeStep()) return {};
+  return {row.getColumn(0).getString(), row.getColumn(1).getString(),
+          static_cast<std::uint64_t>(row.getColumn(2).getInt64())};
+}
+
+std::string read_shard(SQLite::Database& database) {
+  return database.execAndGet("SELECT shard FROM run").getString();
+}
+
+void write_parameters(SQLite::Database& database, const Parameters& parameters, const std::string& shard) {
+  SQLite::Statement row(database, "REPLACE INTO run VALUES (1, ?, ?, ?, ?)");
+  row.bind(1, parameters.version);
+  row.bind(2, parameters.json);
+  row.bind(3, static_cast<std::int64_t>(parameters.seed));
+  row.bind(4, shard);
+  row.exec();
+}
+
+void add_fragment(SQLite::Database& database, const Fragment& fragment) {
+  SQLite::Statement row(database,
+                        "INSERT INTO fragment (name, path, hash, faces, diameter, state, error) "
+                        "VALUES (?, ?, ?, 0, 0, 'waiting', '')");
+  row.bind(1, fragment.name);
+  row.bind(2, fragment.path);
+  row.bind(3, fragment.hash);
+  row.exec();
+}
+
+void run_with(SQLite::Database& database, const char* text, const std::string& first, std::int64_t second) {
+  SQLite::Statement statement(database, text);
+  statement.bind(1, first);
+  statement.bind(2, second);
+  statement.exec();
+}
+
+void remove_fragment(SQLite::Database& database, std::int64_t id) {
+  SQLite::Statement statement(database, "DELETE FROM fragment WHERE id = ?");
+  statement.bind(1, id);
+  statement.exec();
+}
+
+bool has_pairs(SQLite::Database& database) {
+  return database.execAndGet("SELECT EXISTS (SELECT 1 FROM pair)").getInt() != 0;
+}
+
+void require_shard(SQLite::Database& database, const std::string& shard, const std::string& path) {
+  const std::string known = read_shard(database);
+  if (shard.empty() || shard == known || !has_pairs(database)) return;
+  throw StoreError(path, known.empty() ? "holds a whole run" : "holds shard " + known,
+                   fmt::format("give shard {} a folder of its own", shard));
+}
+
+/// Removes what is no longer wanted, and takes what stays off `wanted`.
+/// \return names of what was removed
+std::vector<std::string> forget_changed(SQLite::Database& database, std::map<std::string, Fragment>& wanted) {
+  std::vector<std::string> names;
+  for (const Fragment& known : all_fragments(database)) {
+    const auto same = wanted.find(known.name);
+    if (same == wanted.end() || same->second.hash != known.hash) {
+      remove_fragment(database, known.id);
+      names.push_back(known.name);
+      continue;
+    }
+    if (same->second.path != known.path) {
+      run_with(database, "UPDATE fragment SET path = ? WHERE id = ?", same->second.path, known.id);
+    }
+    wanted.erase(same);
+  }
+  return names;
+}
+
+}  // namespace
+
+Run::Run(std::unique_ptr<Access> access) : access_(std::move(access)) {}
+Run::~Run() = default;
+Run::Run(Run&&) noexcept = default;
+Run& Run::operator=(Run&&) noexcept = default;
+
+Run Run::open(const fs::path& folder) {
+  auto access = std::make_unique<Access>();
+  const fs::path file = detail::database_file(folder);
+  access->path = file.string();
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) {
+    throw StoreError(access->path, "is not there", "give the folder that rejoin batch wrote");
+  }
+  detail::guarded(access->path, [&] {
+    access->database.emplace(detail::reading_address(file), SQLite::OPEN_READONLY | SQLite::OPEN_URI,
+                             kPatience_ms);
+    detail::require_schema(*access->database, access->path);
+  });
+  return Run(std::move(access));
+}
+
+Run Run::write(const fs::path& folder) {
+  auto access = std::make_unique<Access>();
+  access->path = (folder / kFileName).string();
+  access->lock.emplace((folder / "lock").string());
+  detail::guarded(access->path, [&] {
+    access->database.emplace(access->path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, kPatience_ms);
+    SQLite::Database& database = *access->database;
+    database.exec("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON");
+    detail::make_tables(database);
+    detail::require_schema(database, access->path);
+  });
+  return Run(std::move(access));
+}
+
+Parameters Run::parameters() const {
+  return detail::guarded(access_->path, [&] { return read_parameters(*access_->database); });
+}
+
+std::vector<Fragment> Run::fragments() const {
+  return detail::guarded(access_->path, [&] { return all_fragments(*access_->database); });
+}
+
+std::vector<Pair> Run::pairs() const {
+  return detail::guarded(access_->path, [&] {
+    auto rows = access_->query(
+        "SELECT p.a, p.b, x.name, y.name, p.stage, p.evidence, p.score, p.verdict, p.seconds, p.error, "
+        "p.result "
+        "FROM pair p JOIN fragment x ON x.id = p.a JOIN fragment y ON y.id = p.b "
+        "ORDER BY p.score DESC, p.evidence DESC, x.name, y.name");
+    std::vector<Pair> list;
+    while (rows.executeStep()) {
+      list.push_back(
+          {rows.getColumn(0).getInt64(), rows.getColumn(1).getInt64(), rows.getColumn(2).getString(),
+           rows.getColumn(3).getString(), detail::stage(rows.getColumn(4).getString()),
+           rows.getColumn(5).getDouble(), rows.getColumn(6).getDouble(), rows.getColumn(7).getString(),
+           rows.getColumn(8).getDouble(), rows.getColumn(9).getString(), rows.getColumn(10).getString()});
+    }
+    return list;
+  });
+}
+
+std::vector<Run::Done> Run::done() const {
+  return detail::guarded(access_->path, [&] {
+    auto rows = access_->query("SELECT a, b, stage = 'failed' FROM pair ORDER BY a, b");
+    std::vector<Done> list;
+    while (rows.executeStep()) {
+      list.push_back(
+          {rows.getColumn(0).getInt64(), rows.getColumn(1).getInt64(), rows.getColumn(2).getInt() != 0});
+    }
+    return list;
+  });
+}
+
+std::string Run::shard() const {
+  return detail::guarded(access_->path, [&] { return read_shard(*access_->database); });
+}
+
+std::vector<Candidate> Run::candidates(const Pair& pair) const {
+  return candidates(pair.a, pair.b);
+}
+
+std::vector<Candidate> Run::candidates(std::int64_t a, std::int64_t b) const {
+  return detail::guarded(access_->path, [&] {
+    auto rows = access_->query(fmt::format("SELECT {} FROM candidate WHERE a = ? AND b = ? ORDER BY rank",
+                                           detail::kCandidateColumns));
+    rows.bind(1, a);
+    rows.bind(2, b);
+    std::vector<Candidate> list;
+    while (rows.executeStep()) list.push_back(detail::candidate_from(rows));
+    return list;
+  });
+}
+
+Run::Forgotten Run::begin(const Parameters& parameters, const std::vector<Fragment>& fragments,
+                          const std::string& shard) {
+  return detail::guarded(access_->path, [&] {
+    SQLite::Database& database = *access_->database;
+    SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+    require_shard(database, shard, access_->path);
+    Forgotten forgotten;
+    if (read_parameters(database) != parameters) {
+      forgotten.parameters = has_pairs(database);
+      database.exec("DELETE FROM pair");
+    }
+    write_parameters(database, parameters, shard);
+    std::map<std::string, Fragment> wanted;
+    for (const Fragment& fragment : fragments) wanted[fragment.name] = fragment;
+    forgotten.fragments = forget_changed(database, wanted);
+    for (const auto& [name, fragment] : wanted) add_fragment(database, fragment);
+    transaction.commit();
+    return forgotten;
+  });
+}
+
+void Run::forget_failures() {
+  detail::guarded(access_->path, [&] {
+    SQLite::Transaction transaction(*access_->database, SQLite::TransactionBehavior::IMMEDIATE);
+    access_->database->exec("DELETE FROM pair WHERE stage = 'failed'");
+    access_->database->exec("UPDATE fragment SET state = 'waiting', error = '' WHERE state = 'bad'");
+    transaction.commit();
+  });
+}
+
+void Run::save(const Fragment& fragment) {
+  detail::guarded(access_->path, [&] {
+    auto row =
+        access_->query("UPDATE fragment SET faces = ?, diameter = ?, state = ?, error = ? WHERE id = ?");
+    row.bind(1, fragment.faces);
+    row.bind(2, fragment.diameter);
+    row.bind(3, detail::name_of(fragment.state));
+    row.bind(4, fragment.error);
+    row.bind(5, fragment.id);
+    row.exec();
+  });
+}
+
+void Run::save(const Pair& pair, const std::vector<Candidate>& candidates) {
+  detail::guarded(access_->path, [&] {
+    SQLite::Transaction transaction(*access_->database, SQLite::TransactionBehavior::IMMEDIATE);
+    auto remove = access_->query("DELETE FROM pair WHERE a = ? AND b = ?");
+    remove.bind(1, pair.a);
+    remove.bind(2, pair.b);
+    remove.exec();
+    auto row = access_->query("INSERT INTO pair VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)");
+    row.bind(1, pair.a);
+    row.bind(2, pair.b);
+    row.bind(3, detail::name_of(pair.stage));
+    row.bind(4, pair.evidence);
+    row.bind(5, pair.score);
+    row.bind(6, pair.verdict);
+    row.bind(7, pair.seconds);
+    row.bind(8, pair.error);
+    row.bind(9, pair.result);
+    row.exec();
+    auto insert = access_->query(fmt::format("INSERT INTO candidate (a, b, {}) VALUES (?, ?{})",
+                                             detail::kCandidateColumns, detail::placeholders()));
+    int rank = 0;
+    for (Candidate candidate : candidates) {
+      candidate.rank = ++rank;
+      insert.reset();
+      insert.bind(1, pair.a);
+      insert.bind(2, pair.b);
+      detail::bind_candidate(insert, 3, candidate);
+      insert.exec();
+    }
+    transaction.commit();
+  });
+}
+
+}  // namespace rejoin::store

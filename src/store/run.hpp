@@ -1,0 +1,89 @@
+/// The database of a run, RUN/run.sqlite: which pairs of fragments were tried and what came of it.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "store/records.hpp"
+
+namespace rejoin::store {
+
+/// Name of the database in the run's folder.
+inline constexpr const char* kFileName = "run.sqlite";
+
+/// An open database.  Every writing call is one transaction: it is there as a whole once the call returns, power cut or not,
+/// and not at all if it throws.  One process may write at a time, any number may read meanwhile.  Not thread-safe.
+///
+/// All calls throw StoreError, naming the file: it is no database of a run, is of a newer schema, is damaged, or the disk is full.
+/// The tables are described in docs/store.md.
+class Run {
+ public:
+  /// Opens for reading what `rejoin batch` or `rejoin merge` wrote.
+  /// \param folder  the run's folder, or the database file itself
+  static Run open(const std::filesystem::path& folder);
+
+  /// Opens for writing; makes the database if there is none.  \pre the folder exists
+  /// \throws StoreError also if another process has it open for writing
+  static Run write(const std::filesystem::path& folder);
+
+  ~Run();
+  Run(Run&&) noexcept;
+  Run& operator=(Run&&) noexcept;
+
+  /// Default values in a new database.
+  Parameters parameters() const;
+
+  /// Which part of the work the database is for, as "I/N"; empty: the whole.
+  std::string shard() const;
+
+  /// All fragments, by name.
+  std::vector<Fragment> fragments() const;
+
+  /// All pairs that are done, best score first, then by names.
+  std::vector<Pair> pairs() const;
+
+  /// A pair that is done, by its fragments' ids.
+  struct Done {
+    std::int64_t a;
+    std::int64_t b;
+    bool failed;
+  };
+  /// All pairs that are done, by ids, ascending; far cheaper than pairs().
+  std::vector<Done> done() const;
+
+  /// The poses of a pair, best first.
+  std::vector<Candidate> candidates(const Pair& pair) const;
+  std::vector<Candidate> candidates(std::int64_t a, std::int64_t b) const;
+
+  /// What begin() had to forget.
+  struct Forgotten {
+    bool parameters = false;             ///< all pairs, because they were made with other parameters
+    std::vector<std::string> fragments;  ///< names of those that changed or are gone, with their pairs
+  };
+
+  /// Makes the database one of these parameters and fragments: results that do not belong to them are removed, those that do
+  /// stay.  A fragment is the same if its name and hash are; its path is brought up to date.
+  /// \param fragments  name, path and hash are used
+  /// \param shard      as shard() tells it
+  /// \throws StoreError also if the database has pairs of another shard, for they would be lost
+  Forgotten begin(const Parameters& parameters, const std::vector<Fragment>& fragments,
+                  const std::string& shard = "");
+
+  /// Removes the pairs that failed, and sets the fragments that are bad to waiting, so that they are tried again.
+  void forget_failures();
+
+  /// Sets faces, diameter, state and error of the fragment of this id.
+  void save(const Fragment& fragment);
+
+  /// Adds or replaces a pair with its candidates; ranks are given by their order.
+  void save(const Pair& pair, const std::vector<Candidate>& candidates);
+
+ private:
+  struct Access;
+  explicit Run(std::unique_ptr<Access> access);
+  std::unique_ptr<Access> access_;
+};
+
+}  // namespace rejoin::store

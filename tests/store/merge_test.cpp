@@ -1,0 +1,114 @@
+#include "store/merge.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "core/error.hpp"
+#include "store/run.hpp"
+
+namespace rejoin::store {
+namespace {
+namespace fs = std::filesystem;
+
+const Parameters kParameters{"0.1.0", "{}", 3};
+
+class Merge : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (fs::temp_directory_path() / "rejoin-merge-XXXXXX").string();
+    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  /// A shard that knows these fragments and has done the pair of the first two, with two candidates.
+  fs::path shard(const std::string& name, const std::vector<std::string>& fragments, double score,
+                 const Parameters& parameters = kParameters, const std::string& hash = "1") const {
+    fs::create_directories(folder_ / name);
+    store::Run run = store::Run::write(folder_ / name);
+    std::vector<Fragment> list(fragments.size());
+    for (std::size_t k = 0; k < fragments.size(); ++k) {
+      list[k].name = fragments[k];
+      list[k].path = "scans/" + fragments[k];
+      list[k].hash = hash;
+    }
+    run.begin(parameters, list, name);
+    std::vector<Fragment> known = run.fragments();
+    known[0].state = FragmentState::Ready;
+    known[0].faces = 17;
+    run.save(known[0]);
+    Pair pair;
+    pair.a = known[0].id;
+    pair.b = known[1].id;
+    pair.stage = Stage::Match;
+    pair.score = score;
+    pair.result = "{}";
+    Candidate best;
+    best.score = score;
+    run.save(pair, {best, Candidate()});
+    return folder_ / name;
+  }
+
+  fs::path output() const {
+    fs::create_directories(folder_ / "whole");
+    return folder_ / "whole";
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Merge, WholeHasEveryPairUnderItsNames) {
+  const Merged merged = merge({shard("x", {"c", "d"}, 0.5), shard("y", {"a", "b", "c"}, 0.75)}, output());
+  EXPECT_EQ(merged.fragments, 4U);
+  EXPECT_EQ(merged.pairs, 2U);
+  const store::Run whole = store::Run::open(output());
+  EXPECT_EQ(whole.parameters(), kParameters);
+  EXPECT_EQ(whole.shard(), "");
+  const std::vector<Pair> pairs = whole.pairs();
+  ASSERT_EQ(pairs.size(), 2U);
+  EXPECT_EQ(pairs[0].name_a + pairs[0].name_b, "ab");
+  EXPECT_EQ(pairs[1].name_a + pairs[1].name_b, "cd");
+  EXPECT_EQ(whole.candidates(pairs[1]).size(), 2U);
+  EXPECT_EQ(whole.candidates(pairs[1])[0].score, 0.5);
+}
+
+TEST_F(Merge, FragmentsAreNumberedByNameAndTakenFromWhoLookedAtThem) {
+  merge({shard("x", {"b", "c"}, 0.5), shard("y", {"c", "d"}, 0.5)}, output());
+  const std::vector<Fragment> fragments = store::Run::open(output()).fragments();
+  ASSERT_EQ(fragments.size(), 3U);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(fragments[k].id, static_cast<std::int64_t>(k + 1));
+  EXPECT_EQ(fragments[1].state, FragmentState::Ready) << "the first shard did not look at c, the second did";
+  EXPECT_EQ(fragments[1].faces, 17);
+}
+
+TEST_F(Merge, PairThatTwoShardsHaveIsTakenOnce) {
+  const Merged merged = merge({shard("x", {"a", "b"}, 0.5), shard("y", {"a", "b"}, 0.5)}, output());
+  EXPECT_EQ(merged.pairs, 1U);
+  EXPECT_EQ(store::Run::open(output()).candidates(1, 2).size(), 2U);
+}
+
+TEST_F(Merge, WholeReplacesWhatWasThere) {
+  merge({shard("x", {"a", "b"}, 0.5)}, output());
+  merge({shard("y", {"c", "d"}, 0.5)}, output());
+  EXPECT_EQ(store::Run::open(output()).pairs().at(0).name_a, "c");
+  EXPECT_FALSE(fs::exists(output() / "merge.part"));
+}
+
+TEST_F(Merge, WholeCanBeOneOfItsParts) {
+  merge({shard("x", {"a", "b"}, 0.5)}, output());
+  EXPECT_EQ(merge({output(), shard("y", {"c", "d"}, 0.5)}, output()).pairs, 2U);
+}
+
+TEST_F(Merge, OtherParametersOrContentsAreRefusedAndNothingIsWritten) {
+  Parameters other = kParameters;
+  other.seed = 4;
+  const fs::path x = shard("x", {"a", "b"}, 0.5);
+  EXPECT_THROW(merge({x, shard("y", {"a", "c"}, 0.5, other)}, output()), StoreError);
+  EXPECT_THROW(merge({x, shard("z", {"a", "c"}, 0.5, kParameters, "2")}, output()), StoreError);
+  EXPECT_THROW(merge({x, folder_ / "nowhere"}, output()), StoreError);
+  EXPECT_FALSE(fs::exists(output() / kFileName));
+}
+
+}  // namespace
+}  // namespace rejoin::store

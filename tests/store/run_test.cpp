@@ -1,0 +1,217 @@
+#include "store/run.hpp"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+
+#include "core/error.hpp"
+
+namespace rejoin::store {
+namespace {
+namespace fs = std::filesystem;
+
+const Parameters kParameters{"0.1.0", R"({"resolution":128})", 0xffffffffffffffffULL};
+
+Fragment fragment(const std::string& name, const std::string& hash) {
+  Fragment made;
+  made.name = name;
+  made.path = "somewhere/" + name;
+  made.hash = hash;
+  return made;
+}
+
+class RunTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (fs::temp_directory_path() / "rejoin-store-XXXXXX").string();
+    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  /// A run of b.ply, a.ply and c.ply with the pair (a, b) done.
+  void make_run() const {
+    store::Run run = store::Run::write(folder_);
+    run.begin(kParameters, three_);
+    run.save(pair_of(run.fragments(), 0, 1), {candidate_});
+  }
+
+  static Pair pair_of(const std::vector<Fragment>& list, std::size_t a, std::size_t b) {
+    Pair pair;
+    pair.a = list.at(a).id;
+    pair.b = list.at(b).id;
+    pair.stage = Stage::Match;
+    pair.score = 0.75;
+    pair.verdict = "join";
+    pair.result = "{}";
+    return pair;
+  }
+
+  static Candidate planted_candidate() {
+    Candidate candidate;
+    candidate.score = 0.75;
+    candidate.pose = {axis_rotation(glm::normalize(glm::dvec3(1, 2, 3)), 0.7), {1.0 / 3.0, -2e9, 4e-9}};
+    candidate.facet_a = 2;
+    candidate.gap_median = 0.125;
+    return candidate;
+  }
+
+  fs::path folder_;
+  const std::vector<Fragment> three_ = {fragment("b.ply", "22"), fragment("a.ply", "11"),
+                                        fragment("c.ply", "33")};
+  const Candidate candidate_ = planted_candidate();
+};
+
+TEST_F(RunTest, WhatIsSavedComesBackToTheLastBit) {
+  make_run();
+  const store::Run run = store::Run::open(folder_);
+  EXPECT_EQ(run.parameters(), kParameters);
+  ASSERT_EQ(run.fragments().size(), 3U);
+  EXPECT_EQ(run.fragments()[0].name, "a.ply");
+  const std::vector<Pair> pairs = run.pairs();
+  ASSERT_EQ(pairs.size(), 1U);
+  EXPECT_EQ(pairs[0].name_a, "a.ply");
+  EXPECT_EQ(pairs[0].name_b, "b.ply");
+  EXPECT_EQ(pairs[0].stage, Stage::Match);
+  const std::vector<Candidate> candidates = run.candidates(pairs[0]);
+  ASSERT_EQ(candidates.size(), 1U);
+  EXPECT_EQ(candidates[0].rank, 1);
+  EXPECT_EQ(candidates[0].pose.rotation, candidate_.pose.rotation);
+  EXPECT_EQ(candidates[0].pose.translation, candidate_.pose.translation);
+  EXPECT_EQ(candidates[0].facet_a, 2);
+  EXPECT_EQ(candidates[0].facet_b, -1);
+  EXPECT_EQ(candidates[0].gap_median, 0.125);
+  EXPECT_TRUE(std::isinf(candidates[0].raycast)) << "not measured";
+}
+
+TEST_F(RunTest, PairSavedAgainReplacesItsCandidates) {
+  make_run();
+  store::Run run = store::Run::write(folder_);
+  Pair again = run.pairs().at(0);
+  again.score = 0.25;
+  run.save(again, {});
+  EXPECT_EQ(run.pairs().at(0).score, 0.25);
+  EXPECT_TRUE(run.candidates(again).empty());
+  EXPECT_EQ(run.done().size(), 1U);
+}
+
+TEST_F(RunTest, SameInputsKeepEverything) {
+  make_run();
+  store::Run run = store::Run::write(folder_);
+  const store::Run::Forgotten forgotten = run.begin(kParameters, three_);
+  EXPECT_FALSE(forgotten.parameters);
+  EXPECT_TRUE(forgotten.fragments.empty());
+  EXPECT_EQ(run.done().size(), 1U);
+}
+
+TEST_F(RunTest, ChangedFragmentLosesItsPairsAlone) {
+  make_run();
+  store::Run run = store::Run::write(folder_);
+  run.save(pair_of(run.fragments(), 0, 2), {});
+  std::vector<Fragment> changed = three_;
+  changed[0].hash = "44";  // b.ply
+  changed[2].path = "elsewhere/c.ply";
+  EXPECT_EQ(run.begin(kParameters, changed).fragments, std::vector<std::string>{"b.ply"});
+  ASSERT_EQ(run.pairs().size(), 1U);
+  EXPECT_EQ(run.pairs()[0].name_b, "c.ply");
+  EXPECT_EQ(run.fragments()[2].path, "elsewhere/c.ply");
+}
+
+TEST_F(RunTest, GoneFragmentLosesItsPairs) {
+  make_run();
+  store::Run run = store::Run::write(folder_);
+  run.begin(kParameters, {three_[0], three_[2]});
+  EXPECT_EQ(run.fragments().size(), 2U);
+  EXPECT_TRUE(run.done().empty());
+}
+
+TEST_F(RunTest, ChangedParametersForgetAllPairs) {
+  make_run();
+  store::Run run = store::Run::write(folder_);
+  Parameters other = kParameters;
+  other.seed = 2;
+  EXPECT_TRUE(run.begin(other, three_).parameters);
+  EXPECT_TRUE(run.done().empty());
+  EXPECT_EQ(run.parameters().seed, 2U);
+}
+
+TEST_F(RunTest, OtherShardIsRefusedSoThatNoPairIsLost) {
+  make_run();
+  store::Run run = store::Run::write(folder_);
+  EXPECT_THROW(run.begin(kParameters, three_, "1/8"), StoreError);
+  EXPECT_EQ(run.done().size(), 1U);
+  EXPECT_EQ(run.shard(), "");
+}
+
+TEST_F(RunTest, FailuresAreForgottenAndNothingElse) {
+  make_run();
+  store::Run run = store::Run::write(folder_);
+  Pair failed = pair_of(run.fragments(), 0, 2);
+  failed.stage = Stage::Failed;
+  failed.error = "c.ply: is empty";
+  run.save(failed, {});
+  Fragment bad = run.fragments()[2];
+  bad.state = FragmentState::Bad;
+  run.save(bad);
+  ASSERT_EQ(run.done().size(), 2U);
+  EXPECT_TRUE(run.done()[1].failed);
+  run.forget_failures();
+  ASSERT_EQ(run.done().size(), 1U);
+  EXPECT_FALSE(run.done()[0].failed);
+  EXPECT_EQ(run.fragments()[2].state, FragmentState::Waiting);
+}
+
+TEST_F(RunTest, SecondWriterIsRefusedAndReadersAreNot) {
+  make_run();
+  const store::Run writer = store::Run::write(folder_);
+  EXPECT_THROW(store::Run::write(folder_), StoreError);
+  EXPECT_EQ(store::Run::open(folder_).pairs().size(), 1U);
+}
+
+TEST_F(RunTest, OtherFilesAreRefused) {
+  EXPECT_THROW(store::Run::open(folder_), StoreError) << "nothing there";
+  std::ofstream(folder_ / kFileName) << "Dear diary, this is no database, but it is longer than a header.";
+  EXPECT_THROW(store::Run::open(folder_), StoreError);
+  EXPECT_THROW(store::Run::write(folder_), StoreError);
+  fs::remove(folder_ / kFileName);
+  SQLite::Database(folder_ / kFileName, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE)
+      .exec("CREATE TABLE t (x)");
+  EXPECT_THROW(store::Run::open(folder_), StoreError);
+  EXPECT_THROW(store::Run::write(folder_), StoreError);
+}
+
+TEST_F(RunTest, NewerSchemaIsRefused) {
+  make_run();
+  SQLite::Database(folder_ / kFileName, SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 99");
+  try {
+    store::Run::open(folder_);
+    FAIL() << "opened";
+  } catch (const StoreError& error) {
+    EXPECT_NE(std::string(error.what()).find("schema 99"), std::string::npos) << error.what();
+  }
+}
+
+TEST_F(RunTest, DamagedDatabaseIsAnErrorNotACrash) {
+  make_run();
+  {
+    std::fstream file(folder_ / kFileName, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(4096);
+    file << std::string(6 * 4096, '\xff');
+  }
+  EXPECT_THROW(static_cast<void>(store::Run::open(folder_).pairs()), StoreError);
+}
+
+TEST_F(RunTest, AnySqliteToolReadsTheRankedView) {
+  make_run();
+  SQLite::Database database(folder_ / kFileName, SQLite::OPEN_READONLY);
+  SQLite::Statement row(database, "SELECT a, b, score, verdict FROM ranked");
+  ASSERT_TRUE(row.executeStep());
+  EXPECT_EQ(row.getColumn(0).getString(), "a.ply");
+  EXPECT_EQ(row.getColumn(3).getString(), "join");
+}
+
+}  // namespace
+}  // namespace rejoin::store
