@@ -1,0 +1,369 @@
+#include "outline/assembly.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <set>
+
+#include "core/parallel.hpp"
+#include "outline/layout.hpp"
+
+namespace rejoin::outline {
+namespace {
+
+// Borders touch within this many steps of the scale.
+constexpr double kTolerance = 1.5;
+// Candidates of a pair that are considered.
+constexpr std::size_t kCandidates = 4;
+// Candidates that say less than this are noise, nats.
+constexpr double kLeastHint = 1.5;
+// Motions of a group that differ by less are one: radians, and share of the piece's size.
+constexpr double kSameTurn = 0.05;
+constexpr double kSameShift = 0.04;
+// A contact is a join of the result from this on: nats, and steps.
+constexpr double kLeastJoin = 2.0;
+constexpr double kShortestJoin = 8.0;
+// Information, in nats, at which a score is a half.
+constexpr double kHalfScore = 20.0;
+
+/// A join that may be used.
+struct Link {
+  std::size_t a;
+  std::size_t b;
+  Planar pose;  // b -> a
+  double information;
+  double length;
+};
+
+/// All links between two groups that move the second in about the same way.
+struct Bundle {
+  std::size_t first = 0;
+  std::size_t second = 0;
+  Planar moved;  // second -> first
+  double information = 0.0;
+  std::vector<std::size_t> links;
+};
+
+double median_length(const std::vector<Piece>& pieces) {
+  std::vector<double> lengths;
+  lengths.reserve(pieces.size());
+  for (const Piece& piece : pieces) lengths.push_back(perimeter(piece.outline.points));
+  std::nth_element(lengths.begin(), lengths.begin() + static_cast<long>(lengths.size() / 2), lengths.end());
+  return lengths[lengths.size() / 2];
+}
+
+std::vector<Silhouette> silhouettes(const std::vector<Piece>& pieces, double step) {
+  std::vector<std::unique_ptr<Silhouette>> made(pieces.size());
+  parallel_for(pieces.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      made[i] = std::make_unique<Silhouette>(pieces[i].outline, step, 1.0);
+  });
+  std::vector<Silhouette> all;
+  all.reserve(pieces.size());
+  for (auto& one : made) all.push_back(std::move(*one));
+  return all;
+}
+
+/// The candidates measured at one scale; those that overlap or say nothing are left out.
+std::vector<Link> links_at(const std::vector<Silhouette>& shapes, const std::vector<PairResult>& pairs,
+                           double tolerance, const AssemblyOptions& options) {
+  std::vector<std::pair<std::size_t, std::size_t>> names;
+  names.reserve(pairs.size());
+  for (std::size_t a = 0; a < shapes.size(); ++a)
+    for (std::size_t b = a + 1; b < shapes.size(); ++b) names.emplace_back(a, b);
+  std::vector<std::vector<Link>> found(pairs.size());
+  parallel_for(pairs.size(), 4, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const auto [a, b] = names[i];
+      for (std::size_t k = 0; k < pairs[i].candidates.size() && k < kCandidates; ++k) {
+        const Planar pose = settle(shapes[a], shapes[b], pairs[i].candidates[k].pose, tolerance, 3);
+        const Contact contact = measure_contact(shapes[a], shapes[b], pose, tolerance);
+        if (contact.information < kLeastHint) continue;
+        if (contact.intrusion > options.most_intrusion * contact.length) continue;
+        found[i].push_back({a, b, pose, contact.information, contact.length});
+      }
+    }
+  });
+  std::vector<Link> links;
+  for (const std::vector<Link>& some : found) links.insert(links.end(), some.begin(), some.end());
+  return links;
+}
+
+/// What the best links of each piece say together.
+double total_information(const std::vector<Link>& links, std::size_t pieces) {
+  std::vector<double> best(pieces, 0.0);
+  for (const Link& link : links) {
+    best[link.a] = std::max(best[link.a], link.information);
+    best[link.b] = std::max(best[link.b], link.information);
+  }
+  double sum = 0.0;
+  for (const double value : best) sum += value;
+  return sum;
+}
+
+/// The best candidates of all pairs only, to choose a scale by.
+std::vector<PairResult> best_of(const std::vector<PairResult>& pairs, std::size_t most) {
+  std::vector<std::pair<double, std::size_t>> order;
+  order.reserve(pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (!pairs[i].candidates.empty()) order.emplace_back(-pairs[i].candidates[0].score, i);
+  std::sort(order.begin(), order.end());
+  std::vector<PairResult> best(pairs.size());
+  for (std::size_t k = 0; k < order.size() && k < most; ++k)
+    best[order[k].second].candidates = {pairs[order[k].second].candidates[0]};
+  return best;
+}
+
+/// The step, file units, at which the best candidates say most.
+double fitting_step(const std::vector<Piece>& pieces, const std::vector<PairResult>& pairs,
+                    const AssemblyOptions& options) {
+  const double length = median_length(pieces);
+  const std::vector<PairResult> best = best_of(pairs, 2 * pieces.size());
+  double most = -1.0;
+  double step = length;
+  for (const double samples : options.samples) {
+    const double trial = length / samples;
+    const std::vector<Link> links = links_at(silhouettes(pieces, trial), best, kTolerance * trial, options);
+    const double information = total_information(links, pieces.size());
+    if (information <= most) continue;
+    most = information;
+    step = trial;
+  }
+  return step;
+}
+
+class Assembler {
+ public:
+  Assembler(const std::vector<Silhouette>& shapes, std::vector<Link> links, double tolerance,
+            const AssemblyOptions& options)
+      : shapes_(shapes),
+        links_(std::move(links)),
+        tolerance_(tolerance),
+        options_(options),
+        layout_(shapes, tolerance) {}
+
+  void run(const Context& context) {
+    grow(context);
+    // Each round must make the whole fit better, so this ends; the number is a safeguard.
+    for (int round = 0; round < 8 && resolve_one_conflict(); ++round) grow(context);
+  }
+
+  Layout& layout() { return layout_; }
+
+ private:
+  /// Joins groups, the most telling bundle first, until no bundle is left that holds.
+  void grow(const Context& context) {
+    refused_.clear();
+    const std::size_t most = layout_.size();
+    for (std::size_t done = 0;;) {
+      const std::vector<Bundle> bundles = sorted_bundles();
+      const auto good = std::find_if(bundles.begin(), bundles.end(), [&](const Bundle& bundle) {
+        if (refused_.count(key(bundle)) > 0) return false;
+        if (try_merge(bundle)) return true;
+        refused_.insert(key(bundle));
+        return false;
+      });
+      if (good == bundles.end()) return;
+      context.report("assembling", static_cast<double>(++done) / static_cast<double>(most));
+    }
+  }
+
+  std::vector<Bundle> sorted_bundles() const {
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> between;
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+      const std::size_t a = layout_.group(links_[i].a);
+      const std::size_t b = layout_.group(links_[i].b);
+      if (a != b) between[std::minmax(a, b)].push_back(i);
+    }
+    std::vector<Bundle> bundles;
+    for (const auto& [groups, indices] : between) add_bundles(groups.first, groups.second, indices, bundles);
+    std::stable_sort(bundles.begin(), bundles.end(),
+                     [](const Bundle& p, const Bundle& q) { return p.information > q.information; });
+    return bundles;
+  }
+
+  Planar motion(const Link& link, std::size_t first) const {
+    const Planar moved = layout_.pose(link.a) * link.pose * inverse(layout_.pose(link.b));
+    return layout_.group(link.a) == first ? moved : inverse(moved);
+  }
+
+  void add_bundles(std::size_t first, std::size_t second, const std::vector<std::size_t>& indices,
+                   std::vector<Bundle>& bundles) const {
+    for (const std::size_t seed : indices) {
+      Bundle bundle{first, second, motion(links_[seed], first), 0.0, {seed}};
+      std::map<std::pair<std::size_t, std::size_t>, double> best;
+      const std::size_t piece = layout_.group(links_[seed].a) == second ? links_[seed].a : links_[seed].b;
+      for (const std::size_t other : indices) {
+        if (!same(bundle.moved, motion(links_[other], first), piece)) continue;
+        double& value = best[{links_[other].a, links_[other].b}];
+        value = std::max(value, links_[other].information);
+      }
+      for (const auto& [pair, value] : best) bundle.information += value;
+      bundles.push_back(std::move(bundle));
+    }
+  }
+
+  bool same(const Planar& p, const Planar& q, std::size_t piece) const {
+    const Silhouette& shape = shapes_[piece];
+    const glm::dvec2 centre = layout_.pose(piece)(0.5 * (shape.low + shape.high));
+    return angle_between(p, q) < kSameTurn &&
+           glm::distance(p(centre), q(centre)) < kSameShift * glm::distance(shape.low, shape.high);
+  }
+
+  /// A bundle by its seed and the sizes of its groups: as groups grow, what was refused may hold.
+  std::array<std::size_t, 3> key(const Bundle& bundle) const {
+    return {bundle.links[0], layout_.members(bundle.first).size(), layout_.members(bundle.second).size()};
+  }
+
+  bool try_merge(const Bundle& bundle) {
+    // A group that is far off shows before anything is moved.
+    if (!holds(layout_.contacts_between(bundle.first, bundle.second, bundle.moved), 3.0)) return false;
+    Layout trial = layout_;
+    trial.merge(bundle.first, bundle.second, bundle.moved);
+    trial.spread_error(bundle.first, 2.0 * tolerance_, 2);
+    trial.spread_error(bundle.first, tolerance_, 2);
+    std::vector<PlacedContact> across;
+    for (const PlacedContact& c : trial.contacts_within(bundle.first))
+      if (layout_.group(c.a) != layout_.group(c.b)) across.push_back(c);
+    double information = 0.0;
+    for (const PlacedContact& c : across) information += c.contact.information;
+    if (information < options_.least_information || !holds(across, 1.0)) return false;
+    layout_ = std::move(trial);
+    return true;
+  }
+
+  bool intrudes(const Contact& contact, double leniency) const {
+    const double allowed = options_.most_intrusion * contact.length + 3.0 * tolerance_;
+    return contact.intrusion > leniency * allowed;
+  }
+
+  bool holds(const std::vector<PlacedContact>& contacts, double leniency) const {
+    return std::none_of(contacts.begin(), contacts.end(),
+                        [&](const PlacedContact& c) { return intrudes(c.contact, leniency); });
+  }
+
+  /// Looks for a refused bundle that says more than what holds the pieces in its way, takes these off and joins it.
+  bool resolve_one_conflict() {
+    for (const Bundle& bundle : sorted_bundles()) {
+      if (bundle.information < options_.least_information) return false;
+      std::set<std::size_t> in_the_way;
+      for (const PlacedContact& c : layout_.contacts_between(bundle.first, bundle.second, bundle.moved)) {
+        if (!intrudes(c.contact, 1.0)) continue;
+        in_the_way.insert(layout_.support(c.a) < layout_.support(c.b) ? c.a : c.b);
+      }
+      double lost = 0.0;
+      for (const std::size_t piece : in_the_way) lost += layout_.support(piece);
+      if (in_the_way.empty() || lost >= bundle.information) continue;
+      Layout before = layout_;
+      for (const std::size_t piece : in_the_way) layout_.take_off(piece);
+      const Link& seed = links_[bundle.links[0]];
+      const std::size_t first = layout_.group(seed.a);
+      Bundle again{first, layout_.group(seed.b), motion(seed, first), bundle.information, bundle.links};
+      if (again.first != again.second && try_merge(again)) {
+        for (const std::size_t piece : in_the_way) layout_.take_off(piece);
+        for (std::size_t g = 0; g < layout_.size(); ++g)
+          if (!layout_.members(g).empty()) layout_.split_loose(g, kLeastJoin);
+        return true;
+      }
+      layout_ = std::move(before);
+    }
+    return false;
+  }
+
+  const std::vector<Silhouette>& shapes_;
+  std::vector<Link> links_;
+  double tolerance_;
+  const AssemblyOptions& options_;
+  Layout layout_;
+  std::set<std::array<std::size_t, 3>> refused_;
+};
+
+std::vector<std::vector<double>> similarity(const std::vector<Link>& links, std::size_t count) {
+  std::vector<std::vector<double>> matrix(count, std::vector<double>(count, 0.0));
+  std::map<std::pair<std::size_t, std::size_t>, double> best;
+  for (const Link& link : links) {
+    double& information = best[{link.a, link.b}];
+    if (link.information <= information) continue;
+    information = link.information;
+    matrix[link.a][link.b] = matrix[link.b][link.a] = link.length;
+  }
+  return matrix;
+}
+
+/// Reads the result off the layout.
+Assembly described(const Layout& layout, double step) {
+  Assembly assembly;
+  assembly.placements.resize(layout.size());
+  std::vector<std::size_t> order;
+  for (std::size_t g = 0; g < layout.size(); ++g)
+    if (!layout.members(g).empty()) order.push_back(g);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t p, std::size_t q) {
+    return layout.members(p).size() > layout.members(q).size();
+  });
+  double squares = 0.0;
+  double length = 0.0;
+  for (std::size_t number = 0; number < order.size(); ++number) {
+    std::vector<double> support(layout.size(), 0.0);
+    for (const PlacedContact& c : layout.contacts_within(order[number])) {
+      support[c.a] += c.contact.information;
+      support[c.b] += c.contact.information;
+      if (c.contact.information < kLeastJoin || c.contact.length < kShortestJoin * step) continue;
+      assembly.joins.push_back(
+          {c.a, c.b, c.contact.information / (c.contact.information + kHalfScore), c.contact.length});
+      squares += c.contact.length * c.contact.rms * c.contact.rms;
+      length += c.contact.length;
+    }
+    const bool alone = layout.members(order[number]).size() == 1;
+    for (const std::size_t piece : layout.members(order[number])) {
+      const double information = support[piece];
+      assembly.placements[piece] = {alone ? Planar{} : layout.pose(piece), number,
+                                    information / (information + kHalfScore)};
+      if (alone) assembly.unplaced.push_back(piece);
+    }
+  }
+  std::sort(assembly.unplaced.begin(), assembly.unplaced.end());
+  std::stable_sort(assembly.joins.begin(), assembly.joins.end(),
+                   [](const AssemblyJoin& p, const AssemblyJoin& q) { return p.score > q.score; });
+  assembly.rms = length > 0.0 ? std::sqrt(squares / length) : 0.0;
+  return assembly;
+}
+
+}  // namespace
+
+Assembly assemble(const std::vector<Piece>& pieces, const std::vector<PairResult>& pairs,
+                  const AssemblyOptions& options, const Context& context) {
+  if (pieces.empty()) return {};
+  const double step = fitting_step(pieces, pairs, options);
+  const std::vector<Silhouette> shapes = silhouettes(pieces, step);
+  const std::vector<Link> links = links_at(shapes, pairs, kTolerance * step, options);
+  Assembler assembler(shapes, links, kTolerance * step, options);
+  assembler.run(context);
+  for (std::size_t g = 0; g < pieces.size(); ++g) assembler.layout().spread_error(g, kTolerance * step, 4);
+  Assembly assembly = described(assembler.layout(), step);
+  assembly.similarity = similarity(links, pieces.size());
+  assembly.cancelled = context.cancelled();
+  return assembly;
+}
+
+Assembly assemble(const std::vector<Piece>& pieces, const Matcher& matcher, const AssemblyOptions& options,
+                  const Context& context) {
+  std::vector<std::pair<std::size_t, std::size_t>> names;
+  for (std::size_t a = 0; a < pieces.size(); ++a)
+    for (std::size_t b = a + 1; b < pieces.size(); ++b) names.emplace_back(a, b);
+  std::vector<PairResult> pairs(names.size());
+  // In portions, so that progress is told from one thread and a wish to stop is heard.
+  constexpr std::size_t kPortion = 64;
+  for (std::size_t begin = 0; begin < names.size() && !context.cancelled(); begin += kPortion) {
+    const std::size_t count = std::min(kPortion, names.size() - begin);
+    parallel_for(count, 1, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = begin + first; i < begin + last; ++i)
+        pairs[i] = matcher.match(names[i].first, names[i].second, context);
+    });
+    context.report("matching pairs", static_cast<double>(begin + count) / static_cast<double>(names.size()));
+  }
+  return assemble(pieces, pairs, options, context);
+}
+
+}  // namespace rejoin::outline

@@ -1,0 +1,61 @@
+/// Puts the pieces of flat objects together.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/context.hpp"
+#include "outline/matcher.hpp"
+
+namespace rejoin::outline {
+
+struct AssemblyOptions {
+  std::vector<double> samples = {640.0, 240.0,
+                                 100.0};  ///< steps of a border of median length, a number for each
+                                          ///< scale; the one that fits the joins best is used
+  double least_information = 12.0;        ///< that joins a group to another, nats
+  double most_intrusion = 0.3;            ///< border deep inside another piece, share of the contact's length
+};
+
+/// Where a piece lies.
+struct Placement {
+  Planar pose;              ///< file coordinates -> the group's frame; identity if the piece is alone
+  std::size_t group = 0;    ///< the same for pieces of one object; groups are numbered by size, largest first
+  double confidence = 0.0;  ///< 0..1, from all that holds the piece in its place; 0: placed nowhere
+};
+
+/// Two placed pieces that touch and fit.
+struct AssemblyJoin {
+  std::size_t a = 0;
+  std::size_t b = 0;
+  double score = 0.0;    ///< 0..1, as JoinCandidate::score
+  double contact = 0.0;  ///< length of the common border, file units
+};
+
+struct Assembly {
+  std::vector<Placement> placements;  ///< one a piece
+  std::vector<AssemblyJoin> joins;    ///< best first
+  std::vector<std::size_t> unplaced;  ///< pieces that fit nowhere
+  std::vector<std::vector<double>>
+      similarity;          ///< length of the common border of each pair's best join, 0 if none
+  double rms = 0.0;        ///< distance of the borders along all joins, file units
+  bool cancelled = false;  ///< not all pairs were looked at
+};
+
+/// Matches all pairs and joins them greedily, the most telling first.  When two groups become one, what their pieces
+/// have in common with a third adds up (the similarity matrix is merged).  A merge that makes pieces overlap or leaves
+/// a loop open is refused; pieces that stand in the way of a better join are taken off again.  At the end the error is
+/// spread over all joins by least squares.
+/// \param matcher  prepared with these pieces
+/// \return for a cancelled context: what the pairs matched so far give
+/// \source zhang 2016, section 4.4
+Assembly assemble(const std::vector<Piece>& pieces, const Matcher& matcher, const AssemblyOptions& options,
+                  const Context& context);
+
+/// The second part of assemble(): from matched pairs.
+/// \param pairs  results for (0, 1), (0, 2) .. (0, n - 1), (1, 2) ..
+Assembly assemble(const std::vector<Piece>& pieces, const std::vector<PairResult>& pairs,
+                  const AssemblyOptions& options, const Context& context);
+
+}  // namespace rejoin::outline

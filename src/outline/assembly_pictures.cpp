@@ -1,0 +1,229 @@
+#include "outline/assembly_pictures.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "core/files.hpp"
+#include "outline/contact.hpp"
+#include "outline/detail/image_file.hpp"
+
+namespace rejoin::outline {
+namespace {
+
+constexpr int kShift = 8;  // binary places of polygon corners
+constexpr double kMargin = 8.0;
+constexpr std::size_t kMaxPixels = 120000000;
+
+/// The group's frame -> pixels.
+struct View {
+  glm::dvec2 low{std::numeric_limits<double>::max()};
+  double scale = 1.0;
+  cv::Size size;
+
+  glm::dvec2 operator()(const glm::dvec2& point) const { return (point - low) * scale + kMargin; }
+};
+
+bool is_picture(const Piece& piece) {
+  std::string kind = std::filesystem::path(piece.path).extension().string();
+  for (char& c : kind) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  constexpr std::array<const char*, 5> kKinds = {".png", ".jpg", ".jpeg", ".tif", ".tiff"};
+  return std::find(kKinds.begin(), kKinds.end(), kind) != kKinds.end();
+}
+
+View view_of(const std::vector<Piece>& pieces, const Assembly& assembly,
+             const std::vector<std::size_t>& members, const PictureOptions& options) {
+  View view;
+  glm::dvec2 high(-std::numeric_limits<double>::max());
+  for (const std::size_t i : members) {
+    for (const glm::dvec2& p : pieces[i].outline.points) {
+      const glm::dvec2 placed = assembly.placements[i].pose(p);
+      view.low = glm::min(view.low, placed);
+      high = glm::max(high, placed);
+    }
+  }
+  const glm::dvec2 extent = high - view.low;
+  const double longest = std::max(extent.x, extent.y);
+  const bool pictures =
+      std::all_of(members.begin(), members.end(), [&](std::size_t i) { return is_picture(pieces[i]); });
+  view.scale = pictures ? std::min(1.0, options.longest_side / longest) : options.drawn_side / longest;
+  view.size = cv::Size(static_cast<int>(extent.x * view.scale + 2.0 * kMargin) + 1,
+                       static_cast<int>(extent.y * view.scale + 2.0 * kMargin) + 1);
+  return view;
+}
+
+std::vector<cv::Point> corners(const std::vector<glm::dvec2>& polygon, const Planar& pose, const View& view,
+                               const cv::Point& origin) {
+  std::vector<cv::Point> out;
+  out.reserve(polygon.size());
+  for (const glm::dvec2& p : polygon) {
+    const glm::dvec2 at = (view(pose(p)) - glm::dvec2(origin.x, origin.y)) * static_cast<double>(1 << kShift);
+    out.emplace_back(static_cast<int>(std::lround(at.x)), static_cast<int>(std::lround(at.y)));
+  }
+  return out;
+}
+
+/// Part of the canvas that a piece covers.
+cv::Rect region_of(const Piece& piece, const Planar& pose, const View& view) {
+  glm::dvec2 low(std::numeric_limits<double>::max());
+  glm::dvec2 high(-std::numeric_limits<double>::max());
+  for (const glm::dvec2& p : piece.outline.points) {
+    low = glm::min(low, view(pose(p)));
+    high = glm::max(high, view(pose(p)));
+  }
+  const cv::Rect box(static_cast<int>(low.x) - 1, static_cast<int>(low.y) - 1,
+                     static_cast<int>(high.x - low.x) + 4, static_cast<int>(high.y - low.y) + 4);
+  return box & cv::Rect(cv::Point(0, 0), view.size);
+}
+
+/// Coverage 0..255 of a placed piece within its region; holes are left out.
+cv::Mat mask_of(const Piece& piece, const Planar& pose, const View& view, const cv::Rect& region) {
+  cv::Mat mask(region.size(), CV_8UC1, cv::Scalar(0));
+  std::vector<std::vector<cv::Point>> polygons = {corners(piece.outline.points, pose, view, region.tl())};
+  for (const auto& hole : piece.outline.holes) polygons.push_back(corners(hole, pose, view, region.tl()));
+  cv::fillPoly(mask, polygons, cv::Scalar(255), cv::LINE_AA, kShift);
+  return mask;
+}
+
+/// A colour for each piece, apart from its neighbours' numbers.
+cv::Scalar colour_of(std::size_t piece) {
+  const double hue = std::fmod(static_cast<double>(piece) * 0.61803398875, 1.0);
+  cv::Mat hsv(1, 1, CV_8UC3, cv::Scalar(180.0 * hue, 90, 215));
+  cv::cvtColor(hsv, hsv, cv::COLOR_HSV2BGR);
+  const auto pixel = hsv.at<cv::Vec3b>(0, 0);
+  return {static_cast<double>(pixel[0]), static_cast<double>(pixel[1]), static_cast<double>(pixel[2])};
+}
+
+/// The piece's own colours within its region, blue, green, red.
+cv::Mat colours_of(const Piece& piece, const Planar& pose, const View& view, const cv::Rect& region) {
+  const cv::Mat source = detail::load_image(piece.path, kMaxPixels);
+  std::vector<cv::Mat> planes;
+  cv::split(source, planes);
+  cv::Mat colours;
+  cv::merge(std::vector<cv::Mat>(planes.begin(), planes.begin() + 3), colours);
+  const glm::dmat3 m = matrix(pose);
+  const glm::dvec2 shift = view(glm::dvec2(m[2])) - glm::dvec2(region.x, region.y);
+  const cv::Matx23d motion(view.scale * m[0][0], view.scale * m[1][0], shift.x, view.scale * m[0][1],
+                           view.scale * m[1][1], shift.y);
+  cv::Mat placed;
+  cv::warpAffine(colours, placed, motion, region.size(), view.scale < 0.7 ? cv::INTER_AREA : cv::INTER_LINEAR,
+                 cv::BORDER_REPLICATE);
+  placed.convertTo(placed, CV_8UC3, 255.0);
+  return placed;
+}
+
+/// Lays colours with a coverage over the canvas (blue, green, red, alpha).
+void lay(cv::Mat canvas, const cv::Mat& colours, const cv::Mat& mask) {
+  for (int y = 0; y < canvas.rows; ++y) {
+    for (int x = 0; x < canvas.cols; ++x) {
+      const int cover = mask.at<std::uint8_t>(y, x);
+      if (cover == 0) continue;
+      auto& pixel = canvas.at<cv::Vec4b>(y, x);
+      const auto& colour = colours.at<cv::Vec3b>(y, x);
+      const int before = pixel[3] * (255 - cover) / 255;
+      const int total = cover + before;
+      for (int c = 0; c < 3; ++c)
+        pixel[c] = static_cast<std::uint8_t>((colour[c] * cover + pixel[c] * before) / total);
+      pixel[3] = static_cast<std::uint8_t>(total);
+    }
+  }
+}
+
+void write(const std::filesystem::path& path, const cv::Mat& image) {
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 6});
+  write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+cv::Mat object_picture(const std::vector<Piece>& pieces, const Assembly& assembly,
+                       const std::vector<std::size_t>& members, const View& view) {
+  cv::Mat canvas(view.size, CV_8UC4, cv::Scalar(0, 0, 0, 0));
+  for (const std::size_t i : members) {
+    const Planar& pose = assembly.placements[i].pose;
+    const cv::Rect region = region_of(pieces[i], pose, view);
+    const cv::Mat mask = mask_of(pieces[i], pose, view, region);
+    const cv::Mat colours = is_picture(pieces[i]) ? colours_of(pieces[i], pose, view, region)
+                                                  : cv::Mat(region.size(), CV_8UC3, colour_of(i));
+    lay(canvas(region), colours, mask);
+  }
+  return canvas;
+}
+
+/// Draws a's border in red where it lies along b's.
+void draw_boundary(cv::Mat& canvas, const Outline& a, const Planar& pose_a, const Outline& b,
+                   const Planar& pose_b, const View& view) {
+  const double reach = 6.0 / view.scale;
+  const DistanceField field(b.points, reach / 3.0, reach);
+  const Planar a_to_b = inverse(pose_b) * pose_a;
+  for (std::size_t i = 0; i < a.points.size(); ++i) {
+    const glm::dvec2& from = a.points[i];
+    const glm::dvec2& to = a.points[(i + 1) % a.points.size()];
+    if (std::abs(field(a_to_b(from))) > 0.9 * reach || std::abs(field(a_to_b(to))) > 0.9 * reach) continue;
+    const std::vector<cv::Point> line = corners({from, to}, pose_a, view, {0, 0});
+    cv::line(canvas, line[0], line[1], cv::Scalar(40, 40, 220, 255), 3, cv::LINE_AA, kShift);
+  }
+}
+
+cv::Mat joins_picture(const std::vector<Piece>& pieces, const Assembly& assembly,
+                      const std::vector<std::size_t>& members, const View& view) {
+  cv::Mat canvas(view.size, CV_8UC4, cv::Scalar(255, 255, 255, 255));
+  for (const std::size_t i : members) {
+    const cv::Rect region = region_of(pieces[i], assembly.placements[i].pose, view);
+    const cv::Mat mask = mask_of(pieces[i], assembly.placements[i].pose, view, region);
+    const double grey = 205.0 + 8.0 * static_cast<double>(i % 4);
+    lay(canvas(region), cv::Mat(region.size(), CV_8UC3, cv::Scalar(grey, grey, grey)), mask);
+  }
+  for (const AssemblyJoin& join : assembly.joins) {
+    if (std::find(members.begin(), members.end(), join.a) == members.end()) continue;
+    draw_boundary(canvas, pieces[join.a].outline, assembly.placements[join.a].pose, pieces[join.b].outline,
+                  assembly.placements[join.b].pose, view);
+  }
+  for (const std::size_t i : members) {
+    const cv::Rect region = region_of(pieces[i], assembly.placements[i].pose, view);
+    const cv::Point middle(region.x + region.width / 2 - 10, region.y + region.height / 2 + 6);
+    cv::putText(canvas, std::to_string(i), middle, cv::FONT_HERSHEY_SIMPLEX, 0.6, cv::Scalar(60, 60, 60, 255),
+                1, cv::LINE_AA);
+  }
+  return canvas;
+}
+
+cv::Mat similarity_picture(const std::vector<std::vector<double>>& similarity) {
+  const auto count = static_cast<int>(similarity.size());
+  double most = 0.0;
+  for (const auto& row : similarity) most = std::max(most, *std::max_element(row.begin(), row.end()));
+  cv::Mat cells(count, count, CV_8UC1, cv::Scalar(0));
+  for (int y = 0; y < count; ++y)
+    for (int x = 0; x < count; ++x)
+      cells.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(std::lround(
+          most > 0.0 ? 255.0 * similarity[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] / most
+                     : 0.0));
+  const int cell = std::clamp(800 / std::max(1, count), 1, 40);
+  cv::Mat large;
+  cv::resize(cells, large, cv::Size(), cell, cell, cv::INTER_NEAREST);
+  cv::applyColorMap(large, large, cv::COLORMAP_VIRIDIS);
+  return large;
+}
+
+}  // namespace
+
+void write_assembly_pictures(const std::filesystem::path& folder, const std::vector<Piece>& pieces,
+                             const Assembly& assembly, const PictureOptions& options) {
+  std::vector<std::vector<std::size_t>> objects;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const std::size_t group = assembly.placements[i].group;
+    if (group >= objects.size()) objects.resize(group + 1);
+    objects[group].push_back(i);
+  }
+  for (std::size_t k = 0; k < objects.size() && k < options.most_objects && objects[k].size() > 1; ++k) {
+    const View view = view_of(pieces, assembly, objects[k], options);
+    const std::string number = std::to_string(k + 1);
+    write(folder / ("object_" + number + ".png"), object_picture(pieces, assembly, objects[k], view));
+    write(folder / ("joins_" + number + ".png"), joins_picture(pieces, assembly, objects[k], view));
+  }
+  if (!assembly.similarity.empty()) write(folder / "similarity.png", similarity_picture(assembly.similarity));
+}
+
+}  // namespace rejoin::outline

@@ -1,0 +1,26 @@
+/// Pictures of an assembly.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "outline/assembly.hpp"
+
+namespace rejoin::outline {
+
+struct PictureOptions {
+  int longest_side = 4000;        ///< of a picture, pixels; pictures of pieces are not enlarged
+  int drawn_side = 1600;          ///< of a picture of pieces that have no picture of their own, pixels
+  std::size_t most_objects = 16;  ///< drawn, the largest first
+};
+
+/// Writes into a folder, each file whole or not at all:
+/// - object_1.png ..: the pieces of an object in their places, in the pictures' own colours (pieces from outlines get one
+///   each), transparent outside
+/// - joins_1.png ..: the same pieces in grey with their common boundaries in red and their numbers
+/// - similarity.png: length of the common border of each pair, a square of cells, dark = none
+/// \throws IoError a picture cannot be read again or a file cannot be written
+void write_assembly_pictures(const std::filesystem::path& folder, const std::vector<Piece>& pieces,
+                             const Assembly& assembly, const PictureOptions& options = {});
+
+}  // namespace rejoin::outline

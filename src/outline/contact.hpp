@@ -1,0 +1,67 @@
+/// How two placed outlines touch: where, how closely, and how telling that is.
+#pragma once
+
+#include <vector>
+
+#include "outline/outline.hpp"
+
+namespace rejoin::outline {
+
+/// Signed distance to a closed polygon on a grid: exact near the border, clamped further away.
+class DistanceField {
+ public:
+  /// \param polygon  closed, either direction   \param cell  side of a cell, file units, > 0; enlarged if the grid
+  ///   would have more than 2^22 cells   \param reach  distances are exact up to here, file units
+  DistanceField(const std::vector<glm::dvec2>& polygon, double cell, double reach);
+
+  /// Distance to the border, positive inside, between -reach and reach; linear between the cells.
+  double operator()(const glm::dvec2& point) const;
+
+  /// Direction in which the distance grows (into the piece), not of unit length; differences over two cells.
+  glm::dvec2 gradient(const glm::dvec2& point) const;
+
+ private:
+  void measure_border(const std::vector<glm::dvec2>& polygon);
+  void sign_inside(const std::vector<glm::dvec2>& polygon);
+
+  glm::dvec2 origin_{0.0};
+  double cell_;
+  double reach_;
+  int columns_ = 0;
+  int rows_ = 0;
+  std::vector<float> values_;
+};
+
+/// A piece made ready to be laid beside others: its border at equal steps, smoothed, and its distance field.
+struct Silhouette {
+  /// \param step  between the points, file units; \param smoothing  of the points, deviation, in steps
+  Silhouette(const Outline& outline, double step, double smoothing);
+
+  double step;                      ///< along the piece's own border between the points, file units
+  std::vector<glm::dvec2> points;   ///< on the border
+  std::vector<glm::dvec2> normals;  ///< outward, of unit length
+  glm::dvec2 low;                   ///< bounding box
+  glm::dvec2 high;
+  DistanceField field;
+};
+
+/// What measure_contact() counts.  Lengths and areas are means of both sides, in file units.
+struct Contact {
+  double length = 0.0;       ///< of border within the tolerance of the other's, facing it
+  double information = 0.0;  ///< how much better the borders follow each other than chance, in nats; >= 0
+  double overlap_area = 0.0;
+  double gap_area = 0.0;   ///< along the contact
+  double intrusion = 0.0;  ///< length of border that lies deeper in the other piece than the tolerance
+  double rms = 0.0;        ///< distance of the borders along the contact
+};
+
+/// Lays B on A with a pose and measures.  Both silhouettes have about the same step.
+/// \param tolerance  distance up to which borders touch, file units, at most the fields' reach
+Contact measure_contact(const Silhouette& a, const Silhouette& b, const Planar& b_to_a, double tolerance);
+
+/// The pose moved so that the borders lie on each other where they are within `tolerance`: least squares of the
+/// distances along the contact.
+Planar settle(const Silhouette& a, const Silhouette& b, const Planar& b_to_a, double tolerance,
+              int iterations = 6);
+
+}  // namespace rejoin::outline

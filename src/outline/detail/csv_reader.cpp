@@ -1,0 +1,57 @@
+#include <fmt/core.h>
+
+#include <charconv>
+#include <optional>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "outline/detail/readers.hpp"
+
+namespace rejoin::outline::detail {
+namespace {
+
+constexpr std::string_view kSeparators = ",; \t\r";
+
+/// The next number of a line, taken off it; nullopt: what comes is none.
+std::optional<double> take_number(std::string_view& line) {
+  const std::size_t begin = line.find_first_not_of(kSeparators);
+  if (begin == std::string_view::npos) return std::nullopt;
+  line.remove_prefix(begin);
+  const std::string_view word = line.substr(0, line.find_first_of(kSeparators));
+  double value = 0.0;
+  const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (problem != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  line.remove_prefix(word.size());
+  return value;
+}
+
+std::optional<glm::dvec2> parse_point(std::string_view line) {
+  const auto x = take_number(line);
+  const auto y = x ? take_number(line) : std::nullopt;
+  if (!y) return std::nullopt;
+  return glm::dvec2(*x, *y);
+}
+
+}  // namespace
+
+std::vector<Rings> read_csv(const std::string& path, const std::string& text) {
+  std::vector<glm::dvec2> points;
+  std::string_view rest = text;
+  std::size_t number = 0;
+  while (!rest.empty()) {
+    const std::size_t end = rest.find('\n');
+    const std::string_view line = rest.substr(0, end);
+    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
+    ++number;
+    if (line.find_first_not_of(kSeparators) == std::string_view::npos || line[0] == '#') continue;
+    const auto point = parse_point(line);
+    if (!point && points.empty() && number == 1) continue;  // the columns' names
+    if (!point)
+      throw InputError(path, fmt::format("line {} is no point", number), "write \"x,y\" in each line");
+    points.push_back(*point);
+  }
+  if (points.empty()) throw InputError(path, "holds no points", "write \"x,y\" in each line");
+  return {{{std::move(points)}, ""}};
+}
+
+}  // namespace rejoin::outline::detail

@@ -1,0 +1,34 @@
+/// How deep a point lies in a piece.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "outline/outline.hpp"
+
+namespace rejoin::outline::detail {
+
+/// Signed distance to a piece's border on a grid: positive inside.  Accurate to about a cell.
+class DistanceGrid {
+ public:
+  /// \param cells  along the longer side of the piece
+  DistanceGrid(const Outline& outline, int cells);
+
+  /// Depth of a point, file units; far outside a negative number that is not exact.
+  double depth(const glm::dvec2& point) const;
+
+  double cell() const { return cell_; }
+
+  /// Centres of all cells inside the piece.
+  const std::vector<glm::dvec2>& inside() const { return inside_; }
+
+ private:
+  glm::dvec2 low_{0.0};
+  double cell_ = 1.0;
+  int columns_ = 0;
+  int rows_ = 0;
+  std::vector<float> depths_;
+  std::vector<glm::dvec2> inside_;
+};
+
+}  // namespace rejoin::outline::detail

@@ -1,0 +1,83 @@
+#include "outline/detail/evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rejoin::outline::detail {
+namespace {
+
+/// Neighbouring samples and scales share what they tell: this part of a sample is new.
+constexpr double kIndependent = 0.4;
+/// So near to the boundary's ends, in steps, the smoothed border is drawn to what lies beyond.
+constexpr double kBlurred = 1.5;
+constexpr double kLeastSamples = 5.0;
+
+/// Correlation of paired numbers, summed up one pair at a time.
+struct Sums {
+  double count = 0.0;
+  double a = 0.0;
+  double b = 0.0;
+  double aa = 0.0;
+  double bb = 0.0;
+  double ab = 0.0;
+
+  void add(double x, double y) {
+    count += 1.0;
+    a += x;
+    b += y;
+    aa += x * x;
+    bb += y * y;
+    ab += x * y;
+  }
+
+  double correlation() const {
+    const double variance_a = aa - a * a / count;
+    const double variance_b = bb - b * b / count;
+    const double product = variance_a * variance_b;
+    return product > 0.0 ? (ab - a * b / count) / std::sqrt(product) : 0.0;
+  }
+};
+
+double turning_at(const ScaleSignal& signal, double sample, double limit) {
+  const auto count = static_cast<double>(signal.turning.size());
+  const double rest = sample - std::floor(sample / count) * count;
+  const auto low = std::min(static_cast<std::size_t>(rest), signal.turning.size() - 1);
+  const std::size_t next = low + 1 < signal.turning.size() ? low + 1 : 0;
+  const double share = rest - static_cast<double>(low);
+  const double value = (1.0 - share) * static_cast<double>(signal.turning[low]) +
+                       share * static_cast<double>(signal.turning[next]);
+  return std::clamp(value, -limit, limit);
+}
+
+double agreement_at(const ScaledBorder& a, const ScaledBorder& b, const std::vector<Contact>& contacts,
+                    std::size_t k) {
+  const ScaleSignal& signal_a = (*a.scales)[k];
+  const Border here_a{&signal_a, a.border.perimeter};
+  const Border here_b{&(*b.scales)[k], b.border.perimeter};
+  const double begin = sample_of(here_a, place_of(a.border, contacts.front().i));
+  const double end = sample_of(here_a, place_of(a.border, contacts.back().i));
+  Sums sums;
+  const double limit = (*a.limits)[k];
+  for (double i = std::ceil(begin + kBlurred); i <= end - kBlurred; i += 1.0) {
+    const double at = sample_of(a.border, place_of(here_a, i)) - contacts.front().i;
+    const auto low = static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(contacts.size() - 2)));
+    const double share = std::clamp(at - static_cast<double>(low), 0.0, 1.0);
+    const double j = contacts[low].j + share * (contacts[low + 1].j - contacts[low].j);
+    const double on_b = sample_of(here_b, place_of(b.border, j));
+    sums.add(turning_at(signal_a, i, limit), -turning_at(*here_b.signal, on_b, limit));
+  }
+  if (sums.count < kLeastSamples) return 0.0;
+  const double r = std::clamp(sums.correlation(), 0.0, 0.999);
+  return -0.5 * kIndependent * sums.count * std::log(1.0 - r * r);
+}
+
+}  // namespace
+
+double agreement(const ScaledBorder& a, const ScaledBorder& b, const std::vector<Contact>& contacts) {
+  double sum = 0.0;
+  if (contacts.size() < 2) return sum;
+  for (std::size_t k = 0; k < a.scales->size(); ++k) sum += agreement_at(a, b, contacts, k);
+  return sum;
+}
+
+}  // namespace rejoin::outline::detail

@@ -1,0 +1,80 @@
+#include <fmt/core.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "outline/detail/readers.hpp"
+
+namespace rejoin::outline::detail {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kMend = "give a GeoJSON file with Polygon or MultiPolygon geometries";
+
+class Reader {
+ public:
+  explicit Reader(const std::string& path) : path_(path) {}
+
+  void read(const json& value) {
+    const std::string type = value.is_object() ? value.value("type", json("")).dump() : "";
+    if (type == "\"FeatureCollection\"") return read_all(value, "features");
+    if (type == "\"GeometryCollection\"") return read_all(value, "geometries");
+    if (type == "\"Feature\"" && value.contains("geometry")) return read(value["geometry"]);
+    if (type == "\"Polygon\"") return add(member(value, "coordinates"));
+    if (type == "\"MultiPolygon\"") {
+      for (const json& polygon : member(value, "coordinates")) add(polygon);
+    }
+  }
+
+  std::vector<Rings> result;
+
+ private:
+  void read_all(const json& value, const char* name) {
+    for (const json& each : member(value, name)) read(each);
+  }
+
+  [[noreturn]] void fail(const std::string& problem) const {
+    throw InputError(path_, fmt::format("polygon {}: {}", result.size() + 1, problem), kMend);
+  }
+
+  const json& member(const json& value, const char* name) const {
+    if (!value.contains(name) || !value[name].is_array()) fail(fmt::format("\"{}\" is missing", name));
+    return value[name];
+  }
+
+  void add(const json& polygon) {
+    if (!polygon.is_array() || polygon.empty()) fail("it has no ring");
+    Rings rings;
+    rings.place = fmt::format("polygon {}", result.size() + 1);
+    for (const json& ring : polygon) rings.rings.push_back(points(ring));
+    result.push_back(std::move(rings));
+  }
+
+  std::vector<glm::dvec2> points(const json& ring) const {
+    if (!ring.is_array()) fail("a ring is no list");
+    std::vector<glm::dvec2> result_points;
+    result_points.reserve(ring.size());
+    for (const json& point : ring) {
+      if (!point.is_array() || point.size() < 2 || !point[0].is_number() || !point[1].is_number())
+        fail(fmt::format("point {} is no pair of numbers", result_points.size() + 1));
+      result_points.emplace_back(point[0].get<double>(), point[1].get<double>());
+    }
+    return result_points;
+  }
+
+  const std::string& path_;
+};
+
+}  // namespace
+
+std::vector<Rings> read_geojson(const std::string& path, const std::string& text) {
+  const json value = json::parse(text, nullptr, false);
+  if (value.is_discarded()) throw InputError(path, "is no JSON, or cut short", kMend);
+  Reader reader(path);
+  reader.read(value);
+  if (reader.result.empty()) throw InputError(path, "holds no polygon", kMend);
+  return std::move(reader.result);
+}
+
+}  // namespace rejoin::outline::detail

@@ -1,0 +1,132 @@
+#include "outline/detail/image_file.hpp"
+
+#include <fmt/core.h>
+
+#include <fstream>
+#include <iterator>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "core/error.hpp"
+
+namespace rejoin::outline::detail {
+namespace {
+
+constexpr std::string_view kPngStart("\x89PNG\r\n\x1a\n", 8);
+
+/// A whole number of `count` bytes; the first byte is the highest if `big`.
+std::optional<std::size_t> number_at(std::string_view bytes, std::size_t place, std::size_t count, bool big) {
+  if (place > bytes.size() || bytes.size() - place < count) return std::nullopt;
+  std::size_t value = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto byte = static_cast<unsigned char>(bytes[place + (big ? i : count - 1 - i)]);
+    value = value * 256 + byte;
+  }
+  return value;
+}
+
+std::optional<ImageHeader> png_header(std::string_view bytes) {
+  const auto width = number_at(bytes, 16, 4, true);
+  const auto height = number_at(bytes, 20, 4, true);
+  if (!width || !height) return std::nullopt;
+  return ImageHeader{*width, *height};
+}
+
+/// Walks over the segments to the start of frame (SOF0 to SOF15 but DHT, JPG, DAC).
+std::optional<ImageHeader> jpeg_header(std::string_view bytes) {
+  std::size_t place = 2;
+  while (const auto marker = number_at(bytes, place, 2, true)) {
+    const auto length = number_at(bytes, place + 2, 2, true);
+    if (*marker < 0xFF00 || !length) return std::nullopt;
+    const bool frame =
+        *marker >= 0xFFC0 && *marker <= 0xFFCF && *marker != 0xFFC4 && *marker != 0xFFC8 && *marker != 0xFFCC;
+    if (frame) {
+      const auto height = number_at(bytes, place + 5, 2, true);
+      const auto width = number_at(bytes, place + 7, 2, true);
+      if (!width || !height) return std::nullopt;
+      return ImageHeader{*width, *height};
+    }
+    place += 2 + std::max<std::size_t>(*length, 2);
+  }
+  return std::nullopt;
+}
+
+/// Width and height are tags 256 and 257 of the first directory, as 16 or 32 bits.
+std::optional<ImageHeader> tiff_header(std::string_view bytes) {
+  const bool big = bytes[0] == 'M';
+  const auto directory = number_at(bytes, 4, 4, big);
+  const auto entries = directory ? number_at(bytes, *directory, 2, big) : std::nullopt;
+  if (!entries) return std::nullopt;
+  ImageHeader header;
+  for (std::size_t i = 0; i < *entries; ++i) {
+    const std::size_t entry = *directory + 2 + 12 * i;
+    const auto tag = number_at(bytes, entry, 2, big);
+    const auto type = number_at(bytes, entry + 2, 2, big);
+    const auto value = number_at(bytes, entry + 8, type == 3U ? 2 : 4, big);
+    if (!tag || !value) return std::nullopt;
+    if (*tag == 256) header.width = *value;
+    if (*tag == 257) header.height = *value;
+  }
+  if (header.width == 0 || header.height == 0) return std::nullopt;
+  return header;
+}
+
+std::string read_bytes(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw IoError(path, "cannot be read", "check the path and the rights");
+  std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  if (file.bad()) throw IoError(path, "cannot be read", "it may be a folder");
+  return bytes;
+}
+
+/// Grey, colour, with and without alpha, 8 or 16 bits -> floats 0..1.
+cv::Mat unify(const cv::Mat& image, const std::string& path) {
+  double scale = 0.0;
+  if (image.depth() == CV_8U) scale = 1.0 / 255.0;
+  if (image.depth() == CV_16U) scale = 1.0 / 65535.0;
+  if (scale == 0.0)
+    throw InputError(path, "has floating-point samples", "save it with 8 or 16 bits a channel");
+  cv::Mat result;
+  image.convertTo(result, CV_32F, scale);
+  if (result.channels() == 1) cv::cvtColor(result, result, cv::COLOR_GRAY2BGR);
+  if (result.channels() != 3 && result.channels() != 4)
+    throw InputError(path, fmt::format("has {} channels", result.channels()), "save it as grey or RGB");
+  return result;
+}
+
+}  // namespace
+
+std::optional<ImageHeader> image_header(std::string_view bytes) {
+  if (bytes.substr(0, kPngStart.size()) == kPngStart) return png_header(bytes);
+  if (bytes.substr(0, 2) == "\xFF\xD8") return jpeg_header(bytes);
+  if (bytes.substr(0, 4) == std::string_view("II*\0", 4) ||
+      bytes.substr(0, 4) == std::string_view("MM\0*", 4))
+    return tiff_header(bytes);
+  return std::nullopt;
+}
+
+cv::Mat load_image(const std::string& path, std::size_t max_pixels) {
+  const std::string bytes = read_bytes(path);
+  if (bytes.empty()) throw InputError(path, "is empty", "save the picture again");
+  const std::optional<ImageHeader> header = image_header(bytes);
+  if (!header) throw InputError(path, "is no PNG, JPEG or TIFF picture", "convert it to PNG");
+  const std::size_t width = std::max<std::size_t>(header->width, 1);
+  if (header->height > max_pixels / width) {
+    throw InputError(path,
+                     fmt::format("its header claims {} x {} pixels; at most {} million are read",
+                                 header->width, header->height, max_pixels / 1000000),
+                     "scale the picture down or cut it into parts");
+  }
+  cv::Mat image;
+  try {
+    const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
+    image = cv::imdecode(buffer, cv::IMREAD_UNCHANGED);
+  } catch (const cv::Exception& problem) {
+    throw InputError(path, "cannot be decoded (" + problem.err + ")", "save it as 8-bit PNG");
+  }
+  if (image.empty())
+    throw InputError(path, "cannot be decoded; it may be cut short", "save the picture again");
+  return unify(image, path);
+}
+
+}  // namespace rejoin::outline::detail

@@ -1,0 +1,27 @@
+/// Pictures from files, checked before they are decoded.
+#pragma once
+
+#include <cstddef>
+#include <opencv2/core/mat.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace rejoin::outline::detail {
+
+/// What a picture's header claims.
+struct ImageHeader {
+  std::size_t width = 0;
+  std::size_t height = 0;
+};
+
+/// Size from the header of a PNG, JPEG or TIFF; nullopt if it is none or its header is broken.
+std::optional<ImageHeader> image_header(std::string_view bytes);
+
+/// Decodes a PNG, JPEG or TIFF to floats 0..1 with 3 channels (blue, green, red) or 4 (and alpha).
+/// \param max_pixels  refused above
+/// \throws IoError   the file cannot be read
+/// \throws InputError it is no such picture, is larger, or is damaged
+cv::Mat load_image(const std::string& path, std::size_t max_pixels);
+
+}  // namespace rejoin::outline::detail

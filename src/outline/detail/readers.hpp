@@ -1,0 +1,28 @@
+/// One reader for each text format of outlines.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+namespace rejoin::outline::detail {
+
+/// Closed polygons of one piece as they stand in a file: the border, then its holes; not yet mended.
+struct Rings {
+  std::vector<std::vector<glm::dvec2>> rings;
+  std::string place;  ///< of the border in the file, "polygon 3", for messages
+};
+
+/// \throws InputError a line is no point
+std::vector<Rings> read_csv(const std::string& path, const std::string& text);
+
+/// \throws InputError broken XML, broken path data, or no closed shape
+std::vector<Rings> read_svg(const std::string& path, const std::string& text);
+
+/// \throws InputError broken JSON, or no polygon in it
+std::vector<Rings> read_geojson(const std::string& path, const std::string& text);
+
+/// Sorts closed polygons into pieces with holes: a polygon inside an odd number of others is a hole of the smallest of them.
+std::vector<Rings> nest(const std::vector<std::vector<glm::dvec2>>& polygons);
+
+}  // namespace rejoin::outline::detail

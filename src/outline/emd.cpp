@@ -1,0 +1,178 @@
+#include "outline/emd.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "outline/contact.hpp"
+#include "outline/frechet.hpp"
+
+namespace rejoin::outline {
+namespace {
+
+// The Gaussian on the border, in samples.
+constexpr double kSmoothing = 2.0;
+// Borders touch within this many steps of the scale.
+constexpr double kTolerance = 1.5;
+// Stretches per scale that are laid on each other.
+constexpr std::size_t kTried = 10;
+// Of these, how many are grown with the transport problem solved, and how often each.
+constexpr std::size_t kSolved = 3;
+constexpr int kMostSolved = 4;
+// Samples that a stretch has at least.
+constexpr std::size_t kShortest = 6;
+// A join in which more of a border than this share of the contact lies deep in the other piece is none.
+constexpr double kMostIntrusion = 0.25;
+// Information, in nats, at which the score is a half.
+constexpr double kHalfScore = 20.0;
+// Candidates turned and shifted by less than this are one: radians, steps of the coarser scale.
+constexpr double kSameTurn = 0.05;
+constexpr double kSameShift = 6.0;
+
+/// A piece at one scale.
+struct ScaledPiece {
+  PropertyPlot forward;
+  PropertyPlot backward;
+  Silhouette silhouette;
+};
+
+double median_length(const std::vector<Piece>& pieces) {
+  std::vector<double> lengths;
+  lengths.reserve(pieces.size());
+  for (const Piece& piece : pieces) lengths.push_back(perimeter(piece.outline.points));
+  std::nth_element(lengths.begin(), lengths.begin() + static_cast<long>(lengths.size() / 2), lengths.end());
+  return lengths[lengths.size() / 2];
+}
+
+/// What a stretch must keep within the tolerance.
+enum class Measure { EarthMover, Frechet };
+
+class EmdMatcher final : public Matcher {
+ public:
+  EmdMatcher(const EmdOptions& options, Measure measure) : options_(options), measure_(measure) {}
+
+  void prepare(const std::vector<Piece>& pieces) override {
+    scales_.clear();
+    if (pieces.empty()) return;
+    const double length = median_length(pieces);
+    if (!(length > 0.0)) throw InputError(pieces[0].name, "has a border of no length", "give an outline");
+    for (const double samples : options_.samples) {
+      std::vector<std::unique_ptr<ScaledPiece>> scaled(pieces.size());
+      parallel_for(pieces.size(), 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+          const Outline& outline = pieces[i].outline;
+          const double step = length / samples;
+          scaled[i] = std::make_unique<ScaledPiece>(
+              ScaledPiece{PropertyPlot(outline, {step, kSmoothing, false}),
+                          PropertyPlot(outline, {step, kSmoothing, true}), Silhouette(outline, step, 1.0)});
+        }
+      });
+      scales_.push_back(std::move(scaled));
+    }
+  }
+
+  PairResult match(std::size_t a, std::size_t b, const Context& context) const override {
+    PairResult result;
+    for (const auto& scale : scales_) {
+      if (context.cancelled()) break;
+      match_scale(*scale[a], *scale[b], result.candidates);
+    }
+    std::stable_sort(result.candidates.begin(), result.candidates.end(),
+                     [](const JoinCandidate& p, const JoinCandidate& q) { return p.score > q.score; });
+    keep_distinct(*scales_.back()[b], result.candidates);
+    return result;
+  }
+
+ private:
+  void match_scale(const ScaledPiece& a, const ScaledPiece& b, std::vector<JoinCandidate>& found) const {
+    MomentOptions moment_options;
+    moment_options.most = options_.moments;
+    moment_options.length_weight = options_.moment_length_weight;
+    moment_options.property_weight = options_.moment_property_weight;
+    moment_options.colour_share = options_.colour_share;
+    BoundaryOptions boundary_options;
+    boundary_options.weights = {options_.length_weight, options_.property_weight, options_.colour_share};
+    boundary_options.epsilon = options_.epsilon;
+    const std::vector<Moment> moments = alignment_moments(a.forward, b.backward, moment_options);
+    FrechetOptions frechet_options;
+    frechet_options.tolerance = 0.5 * options_.epsilon *
+                                (a.forward.step * static_cast<double>(a.forward.size()) +
+                                 b.forward.step * static_cast<double>(b.forward.size()));
+    const auto grown = [&](std::size_t moment) {
+      return measure_ == Measure::Frechet
+                 ? longest_frechet(a.forward, b.backward, moments[moment], frechet_options)
+                 : longest_boundary(a.forward, b.backward, moments[moment], boundary_options);
+    };
+    // All moments by the bound of the cost, which is cheap, and the best of them by the cost itself.
+    boundary_options.most_solved = 0;
+    std::vector<std::pair<double, std::size_t>> order;
+    order.reserve(moments.size());
+    for (std::size_t i = 0; i < moments.size(); ++i) order.emplace_back(grown(i).gain, i);
+    std::stable_sort(order.begin(), order.end(),
+                     [](const auto& p, const auto& q) { return p.first > q.first; });
+    for (std::size_t i = 0; i < order.size() && i < kTried; ++i) {
+      boundary_options.most_solved = i < kSolved ? kMostSolved : 0;
+      const Stretch stretch = grown(order[i].second);
+      if (stretch.a.size() < kShortest) continue;
+      const JoinCandidate candidate = laid(a, b, stretch);
+      if (candidate.score > 0.0) found.push_back(candidate);
+    }
+  }
+
+  JoinCandidate laid(const ScaledPiece& a, const ScaledPiece& b, const Stretch& stretch) const {
+    const double step = a.silhouette.step;
+    JoinCandidate candidate;
+    candidate.pose = aligned(a.forward, b.backward, stretch);
+    candidate.pose = settle(a.silhouette, b.silhouette, candidate.pose, 2.0 * kTolerance * step, 4);
+    candidate.pose = settle(a.silhouette, b.silhouette, candidate.pose, kTolerance * step, 4);
+    const Contact contact = measure_contact(a.silhouette, b.silhouette, candidate.pose, kTolerance * step);
+    if (contact.intrusion > kMostIntrusion * contact.length) return candidate;
+    candidate.score = contact.information / (contact.information + kHalfScore);
+    candidate.gap_area = contact.gap_area;
+    candidate.overlap_area = contact.overlap_area;
+    candidate.boundary = boundary(a.forward, b.backward, stretch);
+    if (measure_ == Measure::EarthMover) candidate.boundary.length = contact.length;
+    return candidate;
+  }
+
+  static Boundary boundary(const PropertyPlot& a, const PropertyPlot& b, const Stretch& stretch) {
+    const auto size_a = static_cast<long>(a.size());
+    const auto size_b = static_cast<long>(b.size());
+    const long begin_a = ((stretch.a.front() % size_a) + size_a) % size_a;
+    const long begin_b = ((-stretch.b.front() % size_b) + size_b) % size_b;
+    return {a.step * static_cast<double>(begin_a), b.step * static_cast<double>(begin_b),
+            a.step * static_cast<double>(stretch.a.size() - 1)};
+  }
+
+  /// Drops all but the best of candidates that lay B in the same place.
+  void keep_distinct(const ScaledPiece& b, std::vector<JoinCandidate>& candidates) const {
+    const glm::dvec2 centre = 0.5 * (b.silhouette.low + b.silhouette.high);
+    std::vector<JoinCandidate> kept;
+    for (const JoinCandidate& candidate : candidates) {
+      const bool known = std::any_of(kept.begin(), kept.end(), [&](const JoinCandidate& other) {
+        return angle_between(candidate.pose, other.pose) < 2.0 * kSameTurn &&
+               glm::distance(candidate.pose(centre), other.pose(centre)) < kSameShift * b.silhouette.step;
+      });
+      if (!known) kept.push_back(candidate);
+      if (kept.size() == options_.candidates) break;
+    }
+    candidates = std::move(kept);
+  }
+
+  EmdOptions options_;
+  Measure measure_;
+  std::vector<std::vector<std::unique_ptr<ScaledPiece>>> scales_;
+};
+
+}  // namespace
+
+std::unique_ptr<Matcher> make_emd(const EmdOptions& options) {
+  return std::make_unique<EmdMatcher>(options, Measure::EarthMover);
+}
+
+std::unique_ptr<Matcher> make_frechet(const EmdOptions& options) {
+  return std::make_unique<EmdMatcher>(options, Measure::Frechet);
+}
+
+}  // namespace rejoin::outline

@@ -1,0 +1,148 @@
+#include "outline/extract.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "outline/detail/contour.hpp"
+#include "outline/detail/coverage.hpp"
+#include "outline/detail/image_file.hpp"
+#include "outline/polygon.hpp"
+
+namespace rejoin::outline {
+namespace {
+
+/// Shorter contours are specks.
+constexpr std::size_t kLeastPoints = 12;
+/// A contour this far outside the outermost pixels' centres runs along the picture's border, pixels.
+constexpr double kBorderBand = 0.25;
+/// How much of a piece's border may run along the picture's border before the piece counts as cut, pixels.
+constexpr double kMostOnBorder = 12.0;
+/// Colours are taken this far inside, so that the background does not bleed in, pixels.
+constexpr double kColourDepth = 3.0;
+/// The border's direction at a point is that from this many points before to as many after.
+constexpr std::size_t kDirectionReach = 4;
+
+using Polygon = std::vector<glm::dvec2>;
+
+double length_on_border(const Polygon& polygon, const cv::Mat& image) {
+  double length = 0.0;
+  const glm::dvec2 last(image.cols - 1, image.rows - 1);
+  const auto at_border = [&](const glm::dvec2& p) {
+    return p.x < -kBorderBand || p.y < -kBorderBand || p.x > last.x + kBorderBand ||
+           p.y > last.y + kBorderBand;
+  };
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec2 next = polygon[(i + 1) % polygon.size()];
+    if (at_border(polygon[i]) && at_border(next)) length += glm::distance(polygon[i], next);
+  }
+  return length;
+}
+
+/// Colour of a pixel position, red green blue, linear between pixels.
+glm::dvec3 colour_at(const cv::Mat& image, const glm::dvec2& point) {
+  const double x = std::clamp(point.x, 0.0, image.cols - 1.0);
+  const double y = std::clamp(point.y, 0.0, image.rows - 1.0);
+  const int column = std::min(static_cast<int>(x), std::max(image.cols - 2, 0));
+  const int row = std::min(static_cast<int>(y), std::max(image.rows - 2, 0));
+  glm::dvec3 sum(0.0);
+  for (int k = 0; k < 4; ++k) {
+    const int c = std::min(column + (k & 1), image.cols - 1);
+    const int r = std::min(row + (k >> 1), image.rows - 1);
+    const auto* pixel = image.ptr<float>(r) + static_cast<std::ptrdiff_t>(c) * image.channels();
+    const double weight = (1.0 - std::abs(x - c)) * (1.0 - std::abs(y - r));
+    sum += weight * glm::dvec3(pixel[2], pixel[1], pixel[0]);
+  }
+  return sum;
+}
+
+std::vector<glm::dvec3> border_colours(const Polygon& polygon, const cv::Mat& image) {
+  std::vector<glm::dvec3> colours;
+  colours.reserve(polygon.size());
+  const std::size_t count = polygon.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const glm::dvec2 chord =
+        polygon[(i + kDirectionReach) % count] - polygon[(i + count - kDirectionReach) % count];
+    const double length = glm::length(chord);
+    const glm::dvec2 inward = length > 0.0 ? glm::dvec2(-chord.y, chord.x) / length : glm::dvec2(0.0);
+    colours.push_back(colour_at(image, polygon[i] + kColourDepth * inward));
+  }
+  return colours;
+}
+
+/// Pieces and holes by the sign of their area, largest first; equal ones by place.
+struct Loops {
+  std::vector<Polygon> outer;
+  std::vector<Polygon> holes;
+};
+
+Loops sort_loops(std::vector<Polygon> all, double min_area) {
+  std::vector<std::pair<double, Polygon>> sized;
+  sized.reserve(all.size());
+  for (Polygon& polygon : all) {
+    const double area = signed_area(polygon);
+    sized.emplace_back(area, std::move(polygon));
+  }
+  std::stable_sort(sized.begin(), sized.end(),
+                   [](const auto& a, const auto& b) { return std::abs(a.first) > std::abs(b.first); });
+  double largest = 0.0;
+  for (const auto& [area, polygon] : sized) largest = std::max(largest, area);
+  Loops loops;
+  for (auto& [area, polygon] : sized) {
+    if (std::abs(area) < min_area * largest) break;
+    (area > 0.0 ? loops.outer : loops.holes).push_back(std::move(polygon));
+  }
+  return loops;
+}
+
+/// Gives each hole to the smallest piece around it.
+void assign_holes(std::vector<Polygon>& holes, std::vector<Outline>& pieces) {
+  for (Polygon& hole : holes) {
+    for (auto piece = pieces.rbegin(); piece != pieces.rend(); ++piece) {
+      if (!contains(piece->points, hole[0])) continue;
+      piece->holes.push_back(std::move(hole));
+      break;
+    }
+  }
+}
+
+/// Leaves out the pieces that the picture's border cuts, unless none is whole.
+void judge_cut_pieces(std::vector<Polygon>& outer, const cv::Mat& image, std::vector<std::string>& notes) {
+  const auto cut = [&](const Polygon& polygon) { return length_on_border(polygon, image) > kMostOnBorder; };
+  const auto whole = static_cast<std::size_t>(
+      std::count_if(outer.begin(), outer.end(), [&](const Polygon& p) { return !cut(p); }));
+  if (whole == outer.size()) return;
+  if (whole == 0) {
+    notes.emplace_back("the piece touches the picture's border and is taken as ending there");
+    return;
+  }
+  notes.push_back(fmt::format("{} of {} pieces touch the picture's border and are left out",
+                              outer.size() - whole, outer.size()));
+  outer.erase(std::remove_if(outer.begin(), outer.end(), cut), outer.end());
+}
+
+}  // namespace
+
+Extraction extract(const std::string& path, const ExtractOptions& options) {
+  const cv::Mat image = detail::load_image(path, options.max_pixels);
+  const cv::Mat field = detail::coverage(image, path);
+  Loops loops = sort_loops(detail::contours(field, 0.5F, kLeastPoints), options.min_area);
+  if (loops.outer.empty()) {
+    throw InputError(path, "no piece: what stands out is smaller than a few pixels", "scan with more pixels");
+  }
+  Extraction result;
+  judge_cut_pieces(loops.outer, image, result.notes);
+  result.pieces.reserve(loops.outer.size());
+  for (Polygon& polygon : loops.outer) {
+    Outline outline;
+    outline.colour = border_colours(polygon, image);
+    outline.points = std::move(polygon);
+    result.pieces.push_back(std::move(outline));
+  }
+  assign_holes(loops.holes, result.pieces);
+  return result;
+}
+
+}  // namespace rejoin::outline

@@ -1,0 +1,31 @@
+/// Outlines of the pieces in a picture.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "outline/outline.hpp"
+
+namespace rejoin::outline {
+
+struct ExtractOptions {
+  double min_area = 0.02;              ///< pieces and holes below this share of the largest piece are dust
+  std::size_t max_pixels = 120000000;  ///< larger pictures are refused before they are decoded
+};
+
+/// What a picture holds.
+struct Extraction {
+  std::vector<Outline> pieces;     ///< largest first; pixel centres have whole coordinates, x right, y down
+  std::vector<std::string> notes;  ///< what was repaired or may be wrong, a sentence each; for the user
+};
+
+/// Pieces of a PNG, JPEG or TIFF, as sub-pixel contours: where alpha passes one half or, in a picture without
+/// transparency, where the colour's distance from the plain background (the median of the frame) passes a threshold found by
+/// Otsu's method.  8 and 16 bits, grey, colour and CMYK; holes are kept.  A piece that runs out of the picture is cut
+/// there, with a note, or left out if others are whole.
+/// \throws IoError   the file cannot be read
+/// \throws InputError it is no such picture, too large, truncated, or shows no piece on a plain background
+Extraction extract(const std::string& path, const ExtractOptions& options = {});
+
+}  // namespace rejoin::outline

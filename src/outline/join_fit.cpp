@@ -1,0 +1,184 @@
+#include "outline/join_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "outline/detail/closest.hpp"
+#include "outline/detail/distance_grid.hpp"
+#include "outline/detail/evidence.hpp"
+#include "outline/signal.hpp"
+
+namespace rejoin::outline {
+namespace {
+
+/// Poses are fitted on the border at this scale: its noise is gone, its shape is not.
+constexpr std::size_t kFitScale = 1;
+constexpr int kGridCells = 96;
+/// Borders may be off each other by this many steps of the fit's scale.
+constexpr double kToleranceSteps = 3.0;
+/// Turning beyond this many standard deviations (from the median of its size) is cut off.
+constexpr double kTurningLimit = 4.0;
+/// A normal distribution's deviation from the median of its absolute values.
+constexpr double kFromMedian = 1.4826;
+/// Overlap that costs a factor e of evidence, share of the smaller piece.
+constexpr double kOverlapScale = 0.03;
+/// The automatic step leaves at most this many samples on the mean border.
+constexpr double kMostSamples = 3000.0;
+constexpr double kStepInEdges = 1.4;
+constexpr double kSameAngle = 5.0 * M_PI / 180.0;
+/// See score_of().
+constexpr double kEvenEvidence = 20.0;
+constexpr double kEvidenceScale = 3.0;
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double automatic_step(const std::vector<Piece>& pieces) {
+  std::vector<double> edges;
+  double length = 0.0;
+  for (const Piece& piece : pieces) {
+    const std::vector<double> lengths = arc_lengths(piece.outline.points);
+    length += lengths.back();
+    for (std::size_t i = 0; i + 1 < lengths.size(); ++i) edges.push_back(lengths[i + 1] - lengths[i]);
+  }
+  return std::max(kStepInEdges * median(edges), length / static_cast<double>(pieces.size()) / kMostSamples);
+}
+
+}  // namespace
+
+struct JoinFitter::State {
+  std::vector<std::vector<ScaleSignal>> scales;  ///< of each piece
+  std::vector<double> perimeters;
+  std::vector<double> areas;
+  std::vector<detail::DistanceGrid> grids;
+  std::vector<double> limits;  ///< of each scale
+  double step = 0.0;
+  double tolerance = 0.0;
+
+  detail::ScaledBorder border(std::size_t piece) const {
+    return {&scales[piece], &limits, {&scales[piece][kFitScale], perimeters[piece]}};
+  }
+
+  void find_limits() {
+    for (std::size_t k = 0; k < scales[0].size(); ++k) {
+      std::vector<double> sizes;
+      for (const auto& piece : scales) {
+        for (const float t : piece[k].turning) sizes.push_back(std::abs(static_cast<double>(t)));
+      }
+      limits.push_back(kTurningLimit * kFromMedian * median(sizes));
+    }
+  }
+
+  /// Area that lies deeper than `ignored` in both.
+  double overlap_area(std::size_t a, std::size_t b, const Planar& pose, double ignored) const {
+    const bool a_smaller = areas[a] < areas[b];
+    const detail::DistanceGrid& moved = grids[a_smaller ? a : b];
+    const detail::DistanceGrid& other = grids[a_smaller ? b : a];
+    const Planar motion = a_smaller ? inverse(pose) : pose;
+    double cells = 0.0;
+    for (const glm::dvec2& p : moved.inside()) {
+      if (other.depth(motion(p)) > ignored && moved.depth(p) > ignored) cells += 1.0;
+    }
+    return cells * moved.cell() * moved.cell();
+  }
+};
+
+JoinFitter::JoinFitter(const std::vector<Piece>& pieces, const FitOptions& options)
+    : state_(std::make_unique<State>()) {
+  for (const Piece& piece : pieces) {
+    if (piece.outline.points.size() < 4) throw InputError(piece.name, "has no border", "give an outline");
+  }
+  State& s = *state_;
+  s.step = options.step > 0.0 ? options.step : automatic_step(pieces);
+  s.tolerance = options.tolerance > 0.0 ? options.tolerance : kToleranceSteps * 2.0 * s.step;
+  const std::size_t count = pieces.size();
+  s.scales.resize(count);
+  s.perimeters.resize(count);
+  s.areas.resize(count);
+  std::vector<std::optional<detail::DistanceGrid>> grids(count);
+  parallel_for(count, 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      s.scales[i] =
+          scale_space(pieces[i].outline, {s.step, std::max(options.scales, static_cast<int>(kFitScale) + 1)});
+      s.perimeters[i] = perimeter(pieces[i].outline.points);
+      s.areas[i] = signed_area(pieces[i].outline.points);
+      grids[i].emplace(pieces[i].outline, kGridCells);
+    }
+  });
+  s.grids.reserve(count);
+  for (auto& grid : grids) s.grids.push_back(std::move(*grid));
+  s.find_limits();
+}
+
+JoinFitter::~JoinFitter() = default;
+JoinFitter::JoinFitter(JoinFitter&&) noexcept = default;
+JoinFitter& JoinFitter::operator=(JoinFitter&&) noexcept = default;
+
+double JoinFitter::step() const {
+  return state_->step;
+}
+
+std::optional<FittedJoin> JoinFitter::fit(std::size_t a, std::size_t b,
+                                          const std::vector<PairedPlaces>& pairs) const {
+  const State& s = *state_;
+  const detail::ScaledBorder border_a = s.border(a);
+  const detail::ScaledBorder border_b = s.border(b);
+  const auto contact = detail::fit_contact(border_a.border, border_b.border, pairs, s.tolerance);
+  if (!contact) return std::nullopt;
+  FittedJoin fitted;
+  JoinCandidate& join = fitted.join;
+  join.pose = contact->pose;
+  fitted.residual = contact->residual;
+  const double begin_a = detail::place_of(border_a.border, contact->contacts.front().i);
+  const double end_a = detail::place_of(border_a.border, contact->contacts.back().i);
+  const double begin_b = detail::place_of(border_b.border, contact->contacts.front().j);
+  const double end_b = detail::place_of(border_b.border, contact->contacts.back().j);
+  join.boundary.begin_a = begin_a - std::floor(begin_a / s.perimeters[a]) * s.perimeters[a];
+  join.boundary.begin_b = begin_b - std::floor(begin_b / s.perimeters[b]) * s.perimeters[b];
+  join.boundary.length = 0.5 * (end_a - begin_a + begin_b - end_b);
+  const double step = border_a.border.signal->step;
+  for (const detail::Contact& c : contact->contacts) {
+    if (c.distance > 0.0) join.gap_area += c.distance * step;
+  }
+  join.overlap_area = s.overlap_area(a, b, join.pose, 0.0);
+  const double deep = s.overlap_area(a, b, join.pose, s.tolerance);
+  fitted.overlap_share = deep / std::min(s.areas[a], s.areas[b]);
+  fitted.evidence = detail::agreement(border_a, border_b, contact->contacts) *
+                    std::exp(-fitted.overlap_share / kOverlapScale);
+  join.score = score_of(fitted.evidence);
+  return fitted;
+}
+
+std::vector<JoinCandidate> distinct(std::vector<FittedJoin> joins, const Piece& b, double same_distance,
+                                    std::size_t most) {
+  std::stable_sort(joins.begin(), joins.end(),
+                   [](const FittedJoin& x, const FittedJoin& y) { return x.evidence > y.evidence; });
+  std::vector<JoinCandidate> kept;
+  const auto off = [&](const Planar& x, const Planar& y) {
+    double farthest = 0.0;
+    const std::size_t stride = std::max<std::size_t>(1, b.outline.points.size() / 16);
+    for (std::size_t i = 0; i < b.outline.points.size(); i += stride)
+      farthest = std::max(farthest, glm::distance(x(b.outline.points[i]), y(b.outline.points[i])));
+    return farthest;
+  };
+  for (const FittedJoin& fitted : joins) {
+    if (kept.size() == most) break;
+    const auto same = [&](const JoinCandidate& other) {
+      return angle_between(other.pose, fitted.join.pose) < kSameAngle &&
+             off(other.pose, fitted.join.pose) < same_distance;
+    };
+    if (std::none_of(kept.begin(), kept.end(), same)) kept.push_back(fitted.join);
+  }
+  return kept;
+}
+
+double score_of(double evidence) {
+  return 1.0 / (1.0 + std::exp((kEvenEvidence - evidence) / kEvidenceScale));
+}
+
+}  // namespace rejoin::outline

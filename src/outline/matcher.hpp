@@ -1,0 +1,28 @@
+/// What all methods for flat pieces have in common.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/context.hpp"
+#include "outline/outline.hpp"
+
+namespace rejoin::outline {
+
+/// A way to find how two outlines join.
+class Matcher {
+ public:
+  virtual ~Matcher() = default;
+
+  /// Computes what each piece needs once; called before match(), and again when the pieces change.
+  /// \param pieces  outlines in one unit
+  /// \throws InputError a piece cannot be used; the message names it
+  virtual void prepare(const std::vector<Piece>& pieces) = 0;
+
+  /// How pieces a and b of the last prepare() join.  Thread-safe; the same answer for any number of threads.  Returns
+  /// what it has when the context is cancelled.
+  /// \pre a != b, both below the number of pieces
+  virtual PairResult match(std::size_t a, std::size_t b, const Context& context) const = 0;
+};
+
+}  // namespace rejoin::outline

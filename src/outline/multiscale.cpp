@@ -1,0 +1,177 @@
+#include "outline/multiscale.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.hpp"
+#include "outline/detail/closest.hpp"
+#include "outline/detail/coding.hpp"
+#include "outline/detail/pairing.hpp"
+#include "outline/join_fit.hpp"
+#include "outline/signal.hpp"
+
+namespace rejoin::outline {
+namespace {
+
+constexpr int kMostScales = 7;
+/// Poses of one pair that differ by less than this share of the smaller border are one.
+constexpr double kSamePose = 0.02;
+constexpr std::size_t kReported = 10;
+
+class Multiscale final : public Matcher {
+ public:
+  explicit Multiscale(const MultiscaleOptions& options) : options_(options) {}
+
+  void prepare(const std::vector<Piece>& pieces) override {
+    pieces_ = &pieces;
+    fitter_.emplace(pieces, FitOptions{options_.step});
+    const double step = fitter_->step();
+    perimeters_.clear();
+    double mean = 0.0;
+    for (const Piece& piece : pieces) {
+      perimeters_.push_back(perimeter(piece.outline.points));
+      mean += perimeters_.back() / static_cast<double>(pieces.size());
+    }
+    min_length_ = options_.min_length > 0.0 ? options_.min_length : options_.min_length_share * mean;
+    scales_ = count_scales(step);
+    signals_.assign(pieces.size(), {});
+    parallel_for(pieces.size(), 1, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i)
+        signals_[i] = scale_space(pieces[i].outline, {step, scales_});
+    });
+    encode_all();
+  }
+
+  PairResult match(std::size_t a, std::size_t b, const Context& context) const override {
+    std::vector<std::vector<PairedPlaces>> starts = search(a, b, context);
+    std::vector<FittedJoin> joins;
+    for (const auto& start : starts) {
+      if (context.cancelled()) break;
+      auto fitted = fitter_->fit(a, b, start);
+      if (fitted) joins.push_back(std::move(*fitted));
+    }
+    const double same = kSamePose * std::min(perimeters_[a], perimeters_[b]);
+    return {distinct(std::move(joins), (*pieces_)[b], same, kReported)};
+  }
+
+ private:
+  /// K: the coarsest scale at which a boundary of L_min is not yet lost to blurred corners.
+  int count_scales(double step) const {
+    int scales = 1;
+    while (scales < kMostScales && 2.0 * step * (1.0 + 8.0 * options_.alpha) <= min_length_) {
+      step *= 2.0;
+      ++scales;
+    }
+    return scales;
+  }
+
+  void encode_all() {
+    coded_.assign(signals_.size(), {});
+    for (std::size_t k = 0; k < static_cast<std::size_t>(scales_); ++k) {
+      const double usual = detail::usual_turning(signals_, k);
+      for (std::size_t i = 0; i < signals_.size(); ++i)
+        coded_[i].push_back(detail::encode(signals_[i][k], usual));
+    }
+  }
+
+  detail::ScaleParameters parameters(std::size_t k) const {
+    const MultiscaleLevel level = k < options_.levels.size() ? options_.levels[k] : default_level();
+    return {level.xi, level.zeta, level.n_min};
+  }
+
+  detail::Sequences sequences(std::size_t a, std::size_t b, std::size_t k) const {
+    return {&coded_[a][k].forward, &coded_[b][k].backward};
+  }
+
+  /// Position in B's backward sequence <-> place on B's border.
+  double place_on_b(std::size_t b, std::size_t k, double j) const {
+    const detail::Border border{&signals_[b][k], perimeters_[b]};
+    return detail::place_of(border, static_cast<double>(border.signal->points.size()) - 1.0 - j);
+  }
+  double sample_on_b(std::size_t b, std::size_t k, double place) const {
+    const detail::Border border{&signals_[b][k], perimeters_[b]};
+    return static_cast<double>(border.signal->points.size()) - 1.0 - detail::sample_of(border, place);
+  }
+
+  std::vector<PairedPlaces> places(std::size_t a, std::size_t b, std::size_t k,
+                                   const detail::Candidate& candidate) const {
+    const detail::Border border_a{&signals_[a][k], perimeters_[a]};
+    std::vector<PairedPlaces> result;
+    result.reserve(candidate.path.size());
+    for (const detail::PairedSamples& p : candidate.path)
+      result.push_back({detail::place_of(border_a, p.i), place_on_b(b, k, p.j)});
+    return result;
+  }
+
+  /// A candidate's pairing at the next finer scale, with its ends moved out by what blurring had taken.
+  std::vector<detail::PairedSamples> mapped(std::size_t a, std::size_t b, std::size_t k,
+                                            const detail::Candidate& candidate) const {
+    const detail::Border border_a{&signals_[a][k - 1], perimeters_[a]};
+    std::vector<detail::PairedSamples> path;
+    for (const PairedPlaces& p : places(a, b, k, candidate)) {
+      path.push_back({static_cast<std::int32_t>(std::lround(detail::sample_of(border_a, p.on_a))),
+                      static_cast<std::int32_t>(std::lround(sample_on_b(b, k - 1, p.on_b)))});
+    }
+    // alpha (lambda^(k+1) - lambda^(k)) in samples of the finer scale, where lambda = 4 delta.
+    const auto more = static_cast<std::int32_t>(std::lround(4.0 * options_.alpha));
+    const auto front = path.front();
+    const auto back = path.back();
+    path.insert(path.begin(), {front.i - more, front.j - more});
+    path.push_back({back.i + more, back.j + more});
+    return path;
+  }
+
+  /// Algorithm 1.  Candidates that a finer scale rejects are kept as they were at the coarser one, behind the rest: wear may
+  /// have taken the fine scales.
+  std::vector<std::vector<PairedPlaces>> search(std::size_t a, std::size_t b, const Context& context) const {
+    auto k = static_cast<std::size_t>(scales_) - 1;
+    const std::size_t finest = options_.per_pair;
+    const int least = std::max(3, static_cast<int>(min_length_ / signals_[a][k].step - 8.0 * options_.alpha));
+    std::vector<detail::Candidate> candidates =
+        detail::initial_candidates(sequences(a, b, k), parameters(k), least, finest << k);
+    std::vector<std::vector<PairedPlaces>> rejected;
+    while (k > 0 && !context.cancelled()) {
+      std::vector<detail::Candidate> refined;
+      for (std::size_t c = 0; c < candidates.size(); ++c) {
+        detail::Candidate next = detail::refine(sequences(a, b, k - 1), parameters(k - 1),
+                                                mapped(a, b, k, candidates[c]), options_.band);
+        if (next.discriminant < 0.0) {
+          refined.push_back(std::move(next));
+        } else {
+          rejected.push_back(places(a, b, k, candidates[c]));
+        }
+      }
+      --k;
+      const std::size_t most = finest << k;
+      detail::prune_and_merge(refined, signals_[a][k].points.size(), signals_[b][k].points.size(), most);
+      candidates = std::move(refined);
+    }
+    std::vector<std::vector<PairedPlaces>> starts;
+    for (const detail::Candidate& candidate : candidates) starts.push_back(places(a, b, k, candidate));
+    for (auto late = rejected.rbegin(); late != rejected.rend() && starts.size() < options_.fitted; ++late)
+      starts.push_back(std::move(*late));
+    if (starts.size() > options_.fitted) starts.resize(options_.fitted);
+    return starts;
+  }
+
+  MultiscaleOptions options_;
+  const std::vector<Piece>* pieces_ = nullptr;
+  std::optional<JoinFitter> fitter_;
+  std::vector<double> perimeters_;
+  double min_length_ = 0.0;
+  int scales_ = 1;
+  std::vector<std::vector<ScaleSignal>> signals_;
+  std::vector<std::vector<detail::Coded>> coded_;
+};
+
+}  // namespace
+
+MultiscaleLevel default_level() {
+  return {1.2, 1.8, 5.0};
+}
+
+std::unique_ptr<Matcher> make_multiscale(const MultiscaleOptions& options) {
+  return std::make_unique<Multiscale>(options);
+}
+
+}  // namespace rejoin::outline

@@ -1,0 +1,93 @@
+/// Outlines of flat pieces, and how two of them join.
+#pragma once
+
+#include <cmath>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+namespace rejoin::outline {
+
+/// Motion of the plane: x -> R(angle) * (flipped ? (x, -y) : (x, y)) + translation.  `flipped`: the piece lies upside down.
+struct Planar {
+  double angle_rad = 0.0;
+  glm::dvec2 translation{0.0};
+  bool flipped = false;
+
+  /// The point moved.
+  glm::dvec2 operator()(const glm::dvec2& point) const { return direction(point) + translation; }
+
+  /// A direction moved: turned, not shifted.
+  glm::dvec2 direction(const glm::dvec2& v) const {
+    const double c = std::cos(angle_rad);
+    const double s = std::sin(angle_rad);
+    const double y = flipped ? -v.y : v.y;
+    return {c * v.x - s * y, s * v.x + c * y};
+  }
+};
+
+/// First apply b, then a.
+Planar operator*(const Planar& a, const Planar& b);
+
+Planar inverse(const Planar& a);
+
+/// Angle between the turns of two motions, radians in 0 .. pi; pi if just one of them is flipped.
+double angle_between(const Planar& a, const Planar& b);
+
+/// The same motion as a matrix for (x, y, 1); glm is column major: matrix[column][row].
+glm::dmat3 matrix(const Planar& pose);
+
+/// A piece's border.  Units and axes are the file's: pixels with y down for pictures.  In these coordinates the border
+/// runs so that its shoelace area is positive (counter-clockwise where y points up) and the holes the other way round,
+/// so the piece is always on the left of the border if y is drawn upwards.
+struct Outline {
+  std::vector<glm::dvec2> points;              ///< closed, without a repeated end point; at least 3
+  std::vector<std::vector<glm::dvec2>> holes;  ///< closed in the same way; may be empty
+  std::vector<glm::dvec3> colour;  ///< of each point, sRGB 0..1, from just inside the border; empty: unknown
+};
+
+/// A piece with its name.
+struct Piece {
+  std::string
+      name;  ///< unique in its set: the file's name, with "#2" and so on for further pieces of one picture
+  std::string path;  ///< where it came from; pictures are read again from here when they are shown
+  Outline outline;
+};
+
+/// Two stretches of two borders that lie along each other: begin_a forward along A, begin_b backward along B.
+struct Boundary {
+  double begin_a =
+      0.0;  ///< arc length from A's first point to where the stretch begins, file units, 0 <= begin_a < perimeter
+  double begin_b = 0.0;  ///< the same on B, for the point that meets A's begin_a
+  double length = 0.0;   ///< mean of the stretch's lengths on A and B, file units
+};
+
+/// One way in which B may join A.
+struct JoinCandidate {
+  Planar pose;                ///< B's file coordinates -> A's
+  double score = 0.0;         ///< 0..1, higher = more likely a join, comparable across pairs
+  Boundary boundary;          ///< where the two meet
+  double gap_area = 0.0;      ///< between the two along the boundary, file units squared
+  double overlap_area = 0.0;  ///< covered by both, file units squared
+};
+
+/// What a matcher says of one pair.
+struct PairResult {
+  std::vector<JoinCandidate> candidates;  ///< best first, distinct poses; empty: nothing fits
+};
+
+/// Shoelace area of a closed polygon, positive if counter-clockwise with y up.
+double signed_area(const std::vector<glm::dvec2>& polygon);
+
+/// Length of a closed polygon.
+double perimeter(const std::vector<glm::dvec2>& polygon);
+
+/// Arc length from the first point to each point, and the perimeter at the end: polygon.size() + 1 numbers.
+std::vector<double> arc_lengths(const std::vector<glm::dvec2>& polygon);
+
+/// The point `distance` along a closed polygon (any number; it wraps).
+/// \param lengths  arc_lengths(polygon)
+glm::dvec2 point_at(const std::vector<glm::dvec2>& polygon, const std::vector<double>& lengths,
+                    double distance);
+
+}  // namespace rejoin::outline

@@ -1,0 +1,199 @@
+#include "outline/polygon.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+#include "outline/outline.hpp"
+
+namespace rejoin::outline {
+namespace {
+
+using Polygon = std::vector<glm::dvec2>;
+
+/// A loop with more than this share of the area is no slip of the pen.
+constexpr double kMostLoopArea = 0.02;
+constexpr std::size_t kLeastPoints = 4;
+/// With more loops the file is no outline.
+constexpr std::size_t kMostLoops = 500;
+
+double cross(const glm::dvec2& a, const glm::dvec2& b) {
+  return a.x * b.y - a.y * b.x;
+}
+
+/// Where two segments meet; nullopt: nowhere, or they are parallel.
+std::optional<glm::dvec2> meet(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c,
+                               const glm::dvec2& d) {
+  const glm::dvec2 ab = b - a;
+  const glm::dvec2 cd = d - c;
+  const double denominator = cross(ab, cd);
+  if (denominator == 0.0) return std::nullopt;
+  const double s = cross(c - a, cd) / denominator;
+  const double t = cross(c - a, ab) / denominator;
+  if (s < 0.0 || s > 1.0 || t < 0.0 || t > 1.0) return std::nullopt;
+  return a + s * ab;
+}
+
+/// Edges sorted into square cells, so that only near ones are compared.
+class EdgeGrid {
+ public:
+  explicit EdgeGrid(const Polygon& polygon) : polygon_(polygon) {
+    glm::dvec2 high(-std::numeric_limits<double>::infinity());
+    low_ = -high;
+    for (const glm::dvec2& p : polygon) {
+      low_ = glm::min(low_, p);
+      high = glm::max(high, p);
+    }
+    const double edges = static_cast<double>(polygon.size());
+    const glm::dvec2 size = high - low_;
+    cell_ = std::max({perimeter(polygon) / edges, std::max(size.x, size.y) / kMostCells, 1e-300});
+    columns_ = static_cast<std::size_t>(size.x / cell_) + 1;
+    rows_ = static_cast<std::size_t>(size.y / cell_) + 1;
+    fill();
+  }
+
+  /// Calls visit(edge) for the edges that share a cell with edge i and come later in the polygon.
+  template <typename Visit>
+  void visit_later(std::size_t i, const Visit& visit) const {
+    for_cells(i, [&](std::size_t cell) {
+      for (std::size_t k = starts_[cell]; k < starts_[cell + 1]; ++k) {
+        if (edges_[k] > i) visit(edges_[k]);
+      }
+    });
+  }
+
+ private:
+  static constexpr double kMostCells = 1024.0;  ///< along the longer side
+
+  template <typename Visit>
+  void for_cells(std::size_t i, const Visit& visit) const {
+    const glm::dvec2 a = polygon_[i];
+    const glm::dvec2 b = polygon_[(i + 1) % polygon_.size()];
+    const glm::dvec2 low = (glm::min(a, b) - low_) / cell_;
+    const glm::dvec2 high = (glm::max(a, b) - low_) / cell_;
+    const std::size_t last_row = std::min(static_cast<std::size_t>(high.y), rows_ - 1);
+    const std::size_t last_column = std::min(static_cast<std::size_t>(high.x), columns_ - 1);
+    for (auto row = static_cast<std::size_t>(low.y); row <= last_row; ++row) {
+      for (auto column = static_cast<std::size_t>(low.x); column <= last_column; ++column)
+        visit(row * columns_ + column);
+    }
+  }
+
+  void fill() {
+    std::vector<std::size_t> counts(columns_ * rows_ + 1, 0);
+    for (std::size_t i = 0; i < polygon_.size(); ++i)
+      for_cells(i, [&](std::size_t cell) { ++counts[cell + 1]; });
+    for (std::size_t c = 1; c < counts.size(); ++c) counts[c] += counts[c - 1];
+    starts_ = counts;
+    edges_.resize(starts_.back());
+    for (std::size_t i = 0; i < polygon_.size(); ++i) {
+      for_cells(i, [&](std::size_t cell) { edges_[counts[cell]++] = i; });
+    }
+  }
+
+  const Polygon& polygon_;
+  glm::dvec2 low_{0.0};
+  double cell_ = 1.0;
+  std::size_t columns_ = 1;
+  std::size_t rows_ = 1;
+  std::vector<std::size_t> starts_;
+  std::vector<std::size_t> edges_;
+};
+
+Polygon without_repeats(const Polygon& polygon) {
+  Polygon result;
+  result.reserve(polygon.size());
+  for (const glm::dvec2& p : polygon) {
+    if (result.empty() || p != result.back()) result.push_back(p);
+  }
+  while (result.size() > 1 && result.front() == result.back()) result.pop_back();
+  return result;
+}
+
+void require_finite(const Polygon& polygon, const std::string& subject) {
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    if (std::isfinite(polygon[i].x) && std::isfinite(polygon[i].y)) continue;
+    throw InputError(subject, fmt::format("point {} is not finite", i + 1), "take it out");
+  }
+}
+
+/// The polygon without the smaller of the two loops at the crossing.
+Polygon cut_loop(const Polygon& polygon, const Crossing& at, const std::string& subject) {
+  const auto begin = polygon.begin();
+  Polygon inner(begin + static_cast<std::ptrdiff_t>(at.first) + 1,
+                begin + static_cast<std::ptrdiff_t>(at.second) + 1);
+  inner.push_back(at.point);
+  Polygon outer(begin, begin + static_cast<std::ptrdiff_t>(at.first) + 1);
+  outer.push_back(at.point);
+  outer.insert(outer.end(), begin + static_cast<std::ptrdiff_t>(at.second) + 1, polygon.end());
+  const bool inner_smaller = std::abs(signed_area(inner)) < std::abs(signed_area(outer));
+  const Polygon& loop = inner_smaller ? inner : outer;
+  Polygon& rest = inner_smaller ? outer : inner;
+  if (std::abs(signed_area(loop)) > kMostLoopArea * std::abs(signed_area(rest))) {
+    throw InputError(subject,
+                     fmt::format("the outline crosses itself: edge {} meets edge {} near ({:.6g}, {:.6g})",
+                                 at.first + 1, at.second + 1, at.point.x, at.point.y),
+                     "draw it without crossings");
+  }
+  return without_repeats(rest);
+}
+
+}  // namespace
+
+bool contains(const Polygon& polygon, const glm::dvec2& point) {
+  bool inside = false;
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+    const glm::dvec2& a = polygon[i];
+    const glm::dvec2& b = polygon[j];
+    if ((a.y > point.y) != (b.y > point.y) && point.x < (b.x - a.x) * (point.y - a.y) / (b.y - a.y) + a.x)
+      inside = !inside;
+  }
+  return inside;
+}
+
+std::optional<Crossing> find_crossing(const Polygon& polygon) {
+  const std::size_t count = polygon.size();
+  if (count < 4) return std::nullopt;
+  const EdgeGrid grid(polygon);
+  for (std::size_t i = 0; i + 2 < count; ++i) {
+    std::optional<Crossing> found;
+    grid.visit_later(i, [&](std::size_t j) {
+      if (j < i + 2 || (i == 0 && j + 1 == count)) return;
+      if (found && found->second <= j) return;
+      const auto point = meet(polygon[i], polygon[i + 1], polygon[j], polygon[(j + 1) % count]);
+      if (point) found = Crossing{i, j, *point};
+    });
+    if (found) return found;
+  }
+  return std::nullopt;
+}
+
+Polygon mend_polygon(Polygon polygon, const std::string& subject, std::vector<std::string>& notes) {
+  require_finite(polygon, subject);
+  polygon = without_repeats(polygon);
+  std::size_t loops = 0;
+  while (polygon.size() >= kLeastPoints) {
+    const auto crossing = find_crossing(polygon);
+    if (!crossing) break;
+    polygon = cut_loop(polygon, *crossing, subject);
+    if (++loops > kMostLoops)
+      throw InputError(subject, "the outline crosses itself everywhere", "draw it without crossings");
+  }
+  if (loops > 0)
+    notes.push_back(
+        fmt::format("{}: the outline crosses itself; {} small loops were cut off", subject, loops));
+  if (polygon.size() < kLeastPoints) {
+    throw InputError(subject,
+                     fmt::format("an outline of {} points says nothing of where it broke", polygon.size()),
+                     "give the border with at least 4 points, better hundreds");
+  }
+  const double area = signed_area(polygon);
+  if (area == 0.0) throw InputError(subject, "the outline encloses no area", "give a closed border");
+  if (area < 0.0) std::reverse(polygon.begin(), polygon.end());
+  return polygon;
+}
+
+}  // namespace rejoin::outline

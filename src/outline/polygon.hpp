@@ -1,0 +1,34 @@
+/// Whether a polygon can be an outline, and repairs.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rejoin::outline {
+
+/// Whether a point lies inside a closed polygon (even-odd rule; either answer on the border itself).
+bool contains(const std::vector<glm::dvec2>& polygon, const glm::dvec2& point);
+
+/// Two edges of a closed polygon that cross or touch without being neighbours, with the point; edge i runs from point i to
+/// the next.  The pair with the least first edge; nullopt: the polygon is simple.  About n log n for outlines of even
+/// edges.
+struct Crossing {
+  std::size_t first = 0;
+  std::size_t second = 0;
+  glm::dvec2 point{0.0};
+};
+std::optional<Crossing> find_crossing(const std::vector<glm::dvec2>& polygon);
+
+/// Makes an outline of a closed polygon: takes out repeated points, cuts off small loops where it crosses itself, and
+/// turns it so that its area is positive.
+/// \param subject  file and place for messages
+/// \param notes    gets a sentence for each repair
+/// \throws InputError fewer than 4 distinct points are left (a triangle tells nothing of where it broke), a number is not
+///                    finite, the area is 0, or a loop holds more than 2 % of the area
+std::vector<glm::dvec2> mend_polygon(std::vector<glm::dvec2> polygon, const std::string& subject,
+                                     std::vector<std::string>& notes);
+
+}  // namespace rejoin::outline

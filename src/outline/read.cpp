@@ -1,0 +1,119 @@
+#include "outline/read.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "core/error.hpp"
+#include "outline/detail/readers.hpp"
+#include "outline/polygon.hpp"
+
+namespace rejoin::outline {
+namespace fs = std::filesystem;
+namespace {
+
+enum class Kind { Picture, Csv, Svg, GeoJson, Unknown };
+
+Kind kind_of(const fs::path& path) {
+  std::string ending = path.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (ending == ".png" || ending == ".jpg" || ending == ".jpeg" || ending == ".tif" || ending == ".tiff")
+    return Kind::Picture;
+  if (ending == ".csv" || ending == ".txt") return Kind::Csv;
+  if (ending == ".svg") return Kind::Svg;
+  if (ending == ".geojson" || ending == ".json") return Kind::GeoJson;
+  return Kind::Unknown;
+}
+
+std::string read_text(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw IoError(path, "cannot be read", "check the path and the rights");
+  std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  if (file.bad()) throw IoError(path, "cannot be read", "it may be a folder");
+  if (text.empty()) throw InputError(path, "is empty", "save it again");
+  return text;
+}
+
+Outline outline_of(detail::Rings& rings, const std::string& path, std::vector<std::string>& notes) {
+  const std::string subject = rings.place.empty() ? path : path + ", " + rings.place;
+  Outline outline;
+  outline.points = mend_polygon(std::move(rings.rings[0]), subject, notes);
+  for (std::size_t h = 1; h < rings.rings.size(); ++h) {
+    if (rings.rings[h].size() < 4) continue;
+    outline.holes.push_back(
+        mend_polygon(std::move(rings.rings[h]), fmt::format("{}, hole {}", subject, h), notes));
+    std::reverse(outline.holes.back().begin(), outline.holes.back().end());
+  }
+  return outline;
+}
+
+std::vector<Outline> read_outlines(const std::string& path, Kind kind, std::vector<std::string>& notes) {
+  const std::string text = read_text(path);
+  std::vector<detail::Rings> all;
+  if (kind == Kind::Csv) all = detail::read_csv(path, text);
+  if (kind == Kind::Svg) all = detail::read_svg(path, text);
+  if (kind == Kind::GeoJson) all = detail::read_geojson(path, text);
+  std::vector<Outline> outlines;
+  outlines.reserve(all.size());
+  for (detail::Rings& rings : all) outlines.push_back(outline_of(rings, path, notes));
+  std::stable_sort(outlines.begin(), outlines.end(), [](const Outline& a, const Outline& b) {
+    return signed_area(a.points) > signed_area(b.points);
+  });
+  return outlines;
+}
+
+}  // namespace
+
+PieceSet read_pieces(const std::string& path, const ExtractOptions& options) {
+  const Kind kind = kind_of(path);
+  PieceSet set;
+  std::vector<Outline> outlines;
+  if (kind == Kind::Unknown) {
+    throw InputError(path, "is neither a picture nor an outline",
+                     "give a png, jpg, tif, csv, svg or geojson file");
+  }
+  if (kind == Kind::Picture) {
+    Extraction found = extract(path, options);
+    outlines = std::move(found.pieces);
+    for (const std::string& note : found.notes) set.notes.push_back(path + ": " + note);
+  } else {
+    outlines = read_outlines(path, kind, set.notes);
+  }
+  const std::string name = fs::path(path).filename().string();
+  set.pieces.reserve(outlines.size());
+  for (std::size_t i = 0; i < outlines.size(); ++i)
+    set.pieces.push_back({i == 0 ? name : fmt::format("{}#{}", name, i + 1), path, std::move(outlines[i])});
+  return set;
+}
+
+PieceSet read_folder(const std::string& folder, const ExtractOptions& options) {
+  std::error_code problem;
+  std::vector<fs::path> files;
+  for (auto entry = fs::directory_iterator(folder, problem); !problem && entry != fs::directory_iterator();
+       entry.increment(problem)) {
+    const Kind kind = kind_of(entry->path());
+    const bool other_json = kind == Kind::GeoJson && entry->path().extension() == ".json";
+    if (kind != Kind::Unknown && !other_json) files.push_back(entry->path());
+  }
+  if (problem)
+    throw IoError(folder, "cannot be read (" + problem.message() + ")",
+                  "give a folder of pictures or outlines");
+  if (files.empty()) {
+    throw InputError(folder, "holds no picture and no outline",
+                     "put png, jpg, tif, csv, svg or geojson files there");
+  }
+  std::sort(files.begin(), files.end());
+  PieceSet all;
+  for (const fs::path& file : files) {
+    PieceSet set = read_pieces(file.string(), options);
+    std::move(set.pieces.begin(), set.pieces.end(), std::back_inserter(all.pieces));
+    std::move(set.notes.begin(), set.notes.end(), std::back_inserter(all.notes));
+  }
+  return all;
+}
+
+}  // namespace rejoin::outline

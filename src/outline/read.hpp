@@ -1,0 +1,34 @@
+/// Flat pieces from files of any known kind.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "outline/extract.hpp"
+#include "outline/outline.hpp"
+
+namespace rejoin::outline {
+
+/// What a file or a folder holds.
+struct PieceSet {
+  std::vector<Piece> pieces;       ///< of one file: largest first
+  std::vector<std::string> notes;  ///< repairs and doubts, "FILE: ..." each; for the user
+};
+
+/// Pieces of one file, by its name's ending:
+/// - png, jpg, jpeg, tif, tiff: pictures, see extract()
+/// - csv, txt: one outline, a point "x,y" a line (comma, semicolon, tab or blanks; a first line of words is skipped)
+/// - svg: each closed subpath of paths, polygons and rectangles is a border, one inside another a hole; curves are
+///   flattened, transforms applied
+/// - geojson, json: each Polygon and each part of a MultiPolygon is a piece, with its holes
+/// Small self-crossings are cut off with a note; a file's y axis is kept as it is.
+/// \throws IoError   the file cannot be read
+/// \throws InputError its content is no outline; the message names the place
+PieceSet read_pieces(const std::string& path, const ExtractOptions& options = {});
+
+/// The pieces of all files of a folder that read_pieces() knows, in the order of their names.
+/// \throws IoError    no such folder
+/// \throws InputError no file in it is known, or one cannot be used
+PieceSet read_folder(const std::string& folder, const ExtractOptions& options = {});
+
+}  // namespace rejoin::outline

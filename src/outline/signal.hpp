@@ -1,0 +1,45 @@
+/// What is compared of outlines: evenly spaced, smoothed borders and their turning, from coarse to fine.
+#pragma once
+
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "outline/outline.hpp"
+
+namespace rejoin::outline {
+
+/// Evenly spaced points of a closed polygon by arc length, beginning with its first point.
+/// \pre count >= 1, the perimeter is positive
+std::vector<glm::dvec2> resample(const std::vector<glm::dvec2>& polygon, std::size_t count);
+
+/// Convolution of a closed sequence of evenly spaced points with a Gaussian.
+/// \param deviation  its standard deviation in samples; 0 changes nothing
+std::vector<glm::dvec2> smooth(const std::vector<glm::dvec2>& points, double deviation);
+
+/// The same for numbers and colours.
+std::vector<double> smooth(const std::vector<double>& values, double deviation);
+std::vector<glm::dvec3> smooth(const std::vector<glm::dvec3>& values, double deviation);
+
+/// Signed curvature at the points of a closed, evenly spaced curve, 1 / file unit; positive where it turns left (with y
+/// up).  A circle of radius r that runs counter-clockwise gives 1 / r.  Central differences of second order.
+std::vector<double> curvature(const std::vector<glm::dvec2>& points);
+
+/// A border at one scale: smoothed by a Gaussian of width lambda = 4 step (4 standard deviations) and sampled each `step`.
+struct ScaleSignal {
+  double step = 0.0;               ///< between samples, file units; nearly the same for all pieces
+  std::vector<glm::dvec2> points;  ///< of the smoothed border
+  std::vector<float> turning;  ///< curvature * step: the angle by which the border turns at a sample, radians
+  std::vector<double> places;  ///< arc length on the piece's own border, ascending, in [0, perimeter)
+};
+
+struct SignalOptions {
+  double step = 0.0;  ///< of the finest scale, file units
+  int scales = 5;     ///< each twice as coarse as the one before
+};
+
+/// The border of one piece at all scales, finest first.  \source leitao 2000, steps 2.1 to 2.3 and "Filtering and
+/// resampling"; deviation: every scale is smoothed from the border itself, which a Gaussian after a Gaussian equals.
+std::vector<ScaleSignal> scale_space(const Outline& outline, const SignalOptions& options);
+
+}  // namespace rejoin::outline

@@ -1,0 +1,78 @@
+#include "outline/assembly_pictures.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "core/error.hpp"
+
+namespace rejoin::outline {
+namespace {
+
+namespace fs = std::filesystem;
+
+class AssemblyPictures : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() /
+              (std::string("rejoin-") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  /// A piece of 40 x 30 pixels in one colour on a larger transparent picture.
+  Piece coloured(const std::string& name, const cv::Scalar& bgr) const {
+    cv::Mat image(50, 60, CV_8UC4, cv::Scalar(0, 0, 0, 0));
+    cv::rectangle(image, cv::Rect(10, 10, 40, 30), cv::Scalar(bgr[0], bgr[1], bgr[2], 255), cv::FILLED);
+    Piece piece;
+    piece.name = name;
+    piece.path = (folder_ / name).string();
+    cv::imwrite(piece.path, image);
+    piece.outline.points = {{9.5, 9.5}, {49.5, 9.5}, {49.5, 39.5}, {9.5, 39.5}};
+    return piece;
+  }
+
+  fs::path folder_;
+};
+
+/// Two pieces side by side, the second turned over by half a turn.
+Assembly side_by_side() {
+  Assembly assembly;
+  assembly.placements = {{Planar{}, 0, 0.9}, {Planar{M_PI, {99.0, 49.0}, false}, 0, 0.9}};
+  assembly.joins = {{0, 1, 0.9, 30.0}};
+  assembly.similarity = {{0.0, 30.0}, {30.0, 0.0}};
+  return assembly;
+}
+
+TEST_F(AssemblyPictures, KeepTheColoursAndAreTransparentOutside) {
+  const std::vector<Piece> pieces = {coloured("a.png", {0, 0, 200}), coloured("b.png", {180, 20, 0})};
+  write_assembly_pictures(folder_, pieces, side_by_side());
+  const cv::Mat object = cv::imread((folder_ / "object_1.png").string(), cv::IMREAD_UNCHANGED);
+  ASSERT_EQ(object.type(), CV_8UC4);
+  EXPECT_EQ(object.cols, 80 + 17);
+  EXPECT_EQ(object.rows, 30 + 17);
+  EXPECT_EQ(object.at<cv::Vec4b>(1, 1)[3], 0);
+  EXPECT_EQ(object.at<cv::Vec4b>(23, 20), cv::Vec4b(0, 0, 200, 255));
+  EXPECT_EQ(object.at<cv::Vec4b>(23, 75), cv::Vec4b(180, 20, 0, 255));
+}
+
+TEST_F(AssemblyPictures, ShowTheCommonBoundaryInRed) {
+  const std::vector<Piece> pieces = {coloured("a.png", {0, 0, 200}), coloured("b.png", {180, 20, 0})};
+  write_assembly_pictures(folder_, pieces, side_by_side());
+  const cv::Mat joins = cv::imread((folder_ / "joins_1.png").string(), cv::IMREAD_UNCHANGED);
+  const cv::Vec4b line = joins.at<cv::Vec4b>(23, 48);  // the common side is at x = 8 + 40
+  EXPECT_GT(line[2], 150);
+  EXPECT_LT(line[0], 120);
+  EXPECT_EQ(joins.at<cv::Vec4b>(1, 1), cv::Vec4b(255, 255, 255, 255));
+}
+
+TEST_F(AssemblyPictures, TellThatAPieceIsGone) {
+  const std::vector<Piece> pieces = {coloured("a.png", {0, 0, 200}), coloured("b.png", {180, 20, 0})};
+  fs::remove(pieces[1].path);
+  EXPECT_THROW(write_assembly_pictures(folder_, pieces, side_by_side()), Error);
+}
+
+}  // namespace
+}  // namespace rejoin::outline

@@ -1,0 +1,139 @@
+#include "outline/assembly.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/parallel.hpp"
+#include "outline/emd.hpp"
+#include "outline/layout.hpp"
+#include "planted.hpp"
+
+namespace rejoin::outline {
+namespace {
+
+Assembly assembled(const std::vector<Piece>& pieces, const Context& context = Context()) {
+  const auto matcher = make_emd();
+  matcher->prepare(pieces);
+  return assemble(pieces, *matcher, {}, context);
+}
+
+/// Mean misplacement of a piece against the board when piece `fixed` is where it belongs.
+double misplaced(const planted::Board& board, const Assembly& assembly, std::size_t fixed,
+                 std::size_t piece) {
+  const Planar to_board = board.poses[fixed] * inverse(assembly.placements[fixed].pose);
+  return planted::misplacement(board.pieces[piece], to_board * assembly.placements[piece].pose,
+                               board.poses[piece]);
+}
+
+TEST(Assembly, PutsABrokenBoardTogether) {
+  const planted::Board board = planted::broken_board(3, 3, 0.05, 11);
+  const Assembly assembly = assembled(board.pieces);
+  EXPECT_TRUE(assembly.unplaced.empty());
+  for (std::size_t i = 1; i < board.pieces.size(); ++i) {
+    EXPECT_EQ(assembly.placements[i].group, 0U);
+    // The noise is 0.05 and a border's points lie 1.6 apart.
+    EXPECT_LT(misplaced(board, assembly, 0, i), 0.3) << "piece " << i;
+  }
+  for (const AssemblyJoin& join : assembly.joins) {
+    const auto column = [](std::size_t i) { return static_cast<int>(i % 3); };
+    const auto row = [](std::size_t i) { return static_cast<int>(i / 3); };
+    EXPECT_EQ(std::abs(column(join.a) - column(join.b)) + std::abs(row(join.a) - row(join.b)), 1);
+  }
+  EXPECT_EQ(assembly.joins.size(), 12U);
+}
+
+TEST(Assembly, KeepsTwoObjectsAndAStrangerApart) {
+  planted::Board all = planted::broken_board(2, 2, 0.05, 21);
+  const planted::Board second = planted::broken_board(3, 1, 0.05, 22);
+  const planted::Board stranger = planted::broken_board(2, 1, 0.05, 23);
+  all.pieces.insert(all.pieces.end(), second.pieces.begin(), second.pieces.end());
+  all.pieces.push_back(stranger.pieces[0]);
+  const Assembly assembly = assembled(all.pieces);
+  ASSERT_EQ(assembly.unplaced, std::vector<std::size_t>{7});
+  for (const std::size_t i : {0U, 1U, 2U, 3U}) EXPECT_EQ(assembly.placements[i].group, 0U);
+  for (const std::size_t i : {4U, 5U, 6U}) EXPECT_EQ(assembly.placements[i].group, 1U);
+}
+
+TEST(Assembly, IsTheSameForAnyNumberOfThreads) {
+  const planted::Board board = planted::broken_board(2, 2, 0.1, 31);
+  const Assembly many = assembled(board.pieces);
+  const ThreadLimit limit(1);
+  const Assembly one = assembled(board.pieces);
+  ASSERT_EQ(many.joins.size(), one.joins.size());
+  for (std::size_t i = 0; i < board.pieces.size(); ++i) {
+    EXPECT_EQ(many.placements[i].pose.angle_rad, one.placements[i].pose.angle_rad);
+    EXPECT_EQ(many.placements[i].pose.translation, one.placements[i].pose.translation);
+  }
+}
+
+TEST(Assembly, RefusesAJoinThatMakesPiecesOverlap) {
+  const planted::Board board = planted::broken_board(3, 1, 0.05, 41);
+  // The middle piece laid on the left one, twice: where it belongs, and as a lie with a better score for the right one.
+  const auto relative = [&](std::size_t a, std::size_t b) {
+    return inverse(board.poses[a]) * board.poses[b];
+  };
+  std::vector<PairResult> pairs(3);
+  JoinCandidate right;
+  right.score = 0.9;
+  right.pose = relative(0, 1);
+  pairs[0].candidates = {right};
+  JoinCandidate lie = right;
+  lie.pose = relative(0, 1) * Planar{0.0, {5.0, 5.0}, false};
+  pairs[1].candidates = {lie};
+  right.pose = relative(1, 2);
+  pairs[2].candidates = {right};
+  const Assembly assembly = assemble(board.pieces, pairs, {}, Context());
+  EXPECT_TRUE(assembly.unplaced.empty());
+  EXPECT_LT(misplaced(board, assembly, 0, 2), 0.5);
+}
+
+TEST(Assembly, TakesOffAPieceInTheWayOfABetterJoin) {
+  const planted::Board board = planted::broken_board(3, 1, 0.05, 42);
+  const double length = perimeter(board.pieces[0].outline.points);
+  std::vector<Silhouette> shapes;
+  shapes.reserve(3);
+  for (const Piece& piece : board.pieces) shapes.emplace_back(piece.outline, length / 640.0, 1.0);
+  Layout layout(shapes, length / 400.0);
+  layout.merge(0, 1, inverse(board.poses[0]) * board.poses[1]);
+  layout.merge(0, 2, inverse(board.poses[0]) * board.poses[2]);
+  EXPECT_EQ(layout.members(0).size(), 3U);
+  EXPECT_GT(layout.support(1), layout.support(0));
+  layout.take_off(1);
+  EXPECT_EQ(layout.members(layout.group(1)).size(), 1U);
+  layout.split_loose(layout.group(0), 1.0);
+  EXPECT_NE(layout.group(0), layout.group(2)) << "nothing holds the outer pieces together";
+}
+
+TEST(Assembly, SpreadsTheErrorOverAllJoins) {
+  const planted::Board board = planted::broken_board(2, 2, 0.0, 51);
+  const double step = perimeter(board.pieces[0].outline.points) / 640.0;
+  std::vector<Silhouette> shapes;
+  shapes.reserve(4);
+  for (const Piece& piece : board.pieces) shapes.emplace_back(piece.outline, step, 1.0);
+  Layout layout(shapes, 1.5 * step);
+  for (const std::size_t i : {1U, 2U, 3U}) {
+    // Each a little off, in its own way.
+    const Planar off{0.002, {0.3 * (static_cast<double>(i) - 2.0), 0.3}, false};
+    layout.merge(0, i, inverse(board.poses[0]) * off * board.poses[i]);
+  }
+  layout.spread_error(0, 2.0 * step, 12);
+  const Planar to_board = board.poses[0] * inverse(layout.pose(0));
+  for (const std::size_t i : {1U, 2U, 3U})
+    EXPECT_LT(planted::misplacement(board.pieces[i], to_board * layout.pose(i), board.poses[i]), 0.15);
+}
+
+TEST(Assembly, OfACancelledSearchHoldsEveryPiece) {
+  const planted::Board board = planted::broken_board(2, 2, 0.05, 61);
+  Context context;
+  context.cancel();
+  const Assembly assembly = assembled(board.pieces, context);
+  EXPECT_TRUE(assembly.cancelled);
+  EXPECT_EQ(assembly.placements.size(), 4U);
+  EXPECT_EQ(assembly.unplaced.size(), 4U);
+}
+
+TEST(Assembly, OfNoPiecesIsEmpty) {
+  EXPECT_TRUE(assembled({}).placements.empty());
+}
+
+}  // namespace
+}  // namespace rejoin::outline

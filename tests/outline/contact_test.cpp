@@ -1,0 +1,84 @@
+#include "outline/contact.hpp"
+
+#include <gtest/gtest.h>
+
+#include "outline/property_plot.hpp"
+
+namespace rejoin::outline {
+namespace {
+
+Outline circle(double radius, int count) {
+  Outline outline;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2.0 * M_PI * i / count;
+    outline.points.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+  }
+  return outline;
+}
+
+Outline rectangle(glm::dvec2 low, glm::dvec2 high) {
+  Outline outline;
+  outline.points = {low, {high.x, low.y}, high, {low.x, high.y}};
+  return outline;
+}
+
+TEST(DistanceField, IsTheDistanceToACircle) {
+  const DistanceField field(circle(50, 720).points, 0.5, 8.0);
+  for (const double radius : {43.0, 47.0, 50.0, 52.0, 56.0}) {
+    for (int i = 0; i < 12; ++i) {
+      const glm::dvec2 p(radius * std::cos(0.5 * i), radius * std::sin(0.5 * i));
+      // The polygon lies 0.0005 inside the circle; linear cells err by cell^2 / (8 radius) = 0.0006.
+      EXPECT_NEAR(field(p), 50.0 - radius, 0.003);
+      const glm::dvec2 inward = field.gradient(p);
+      EXPECT_NEAR(glm::dot(inward, -p / radius), 1.0, 0.01);
+    }
+  }
+}
+
+TEST(DistanceField, IsClampedFarFromTheBorder) {
+  const DistanceField field(rectangle({0, 0}, {100, 80}).points, 1.0, 5.0);
+  EXPECT_FLOAT_EQ(static_cast<float>(field({50, 40})), 5.0F);
+  EXPECT_FLOAT_EQ(static_cast<float>(field({-3000, 40})), -5.0F);
+  EXPECT_FLOAT_EQ(static_cast<float>(field({102, 40})), -2.0F);
+}
+
+TEST(Contact, OfTwoRectanglesIsTheirCommonSide) {
+  const Silhouette a(rectangle({0, 0}, {100, 80}), 1.0, 0.0);
+  const Silhouette b(rectangle({0, 0}, {60, 50}), 1.0, 0.0);
+  const Contact touch = measure_contact(a, b, Planar{0.0, {100.0, 10.0}, false}, 0.75);
+  EXPECT_NEAR(touch.length, 50.0, 3.0);  // a step at each end, on either side
+  EXPECT_NEAR(touch.rms, 0.0, 0.1);
+  EXPECT_NEAR(touch.intrusion, 0.0, 1e-9);
+  EXPECT_NEAR(touch.information, 0.0, 1.0) << "straight sides say nothing";
+  const Contact deep = measure_contact(a, b, Planar{0.0, {90.0, 10.0}, false}, 0.75);
+  EXPECT_GT(deep.intrusion, 60.0);
+}
+
+TEST(Contact, SettlingClosesAGap) {
+  const Silhouette a(rectangle({0, 0}, {100, 80}), 1.0, 0.0);
+  const Silhouette b(rectangle({0, 0}, {60, 50}), 1.0, 0.0);
+  const Planar apart{0.02, {101.5, 10.0}, false};
+  const Planar settled = settle(a, b, apart, 3.0, 20);
+  EXPECT_NEAR(settled.angle_rad, 0.0, 2e-3);
+  EXPECT_NEAR(settled.translation.x, 100.0, 0.1);
+}
+
+TEST(PropertyPlot, OfACircleIsItsCurvature) {
+  const PropertyPlot plot(circle(50, 2000), {2.0, 2.0, false});
+  // Over two samples either way of 2 units the direction turns by 4 / 50.
+  for (const float turn : plot.channels[0]) EXPECT_NEAR(turn, 4.0 / 50.0, 1e-3);
+  const PropertyPlot back(circle(50, 2000), {2.0, 2.0, true});
+  for (const float turn : back.channels[0]) EXPECT_NEAR(turn, -4.0 / 50.0, 1e-3);
+}
+
+TEST(PropertyPlot, FeaturesAreTheCornersOfARectangle) {
+  const PropertyPlot plot(rectangle({0, 0}, {100, 80}), {2.0, 1.0, false});
+  ASSERT_EQ(plot.features.size(), 4U);
+  EXPECT_EQ(plot.features[0], 0U);
+  EXPECT_EQ(plot.features[1], 50U);
+  EXPECT_EQ(plot.features[2], 90U);
+  EXPECT_EQ(plot.features[3], 140U);
+}
+
+}  // namespace
+}  // namespace rejoin::outline

@@ -1,0 +1,200 @@
+#include "outline/extract.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "core/error.hpp"
+#include "outline/polygon.hpp"
+
+namespace rejoin::outline {
+namespace {
+
+/// A folder for one test, taken away after it.
+class Folder {
+ public:
+  Folder() {
+    path_ =
+        std::filesystem::temp_directory_path() /
+        ("rejoin-extract-" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) +
+         "-" + std::to_string(::getpid()));
+    std::filesystem::create_directories(path_);
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+constexpr double kRadius = 40.0;
+const glm::dvec2 kCentre(63.3, 58.7);
+
+/// A disc with soft edges: how much of each pixel it covers, about.
+cv::Mat disc(const cv::Size& size) {
+  cv::Mat cover(size, CV_32F);
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      const double distance = kRadius - glm::distance(glm::dvec2(x, y), kCentre);
+      cover.at<float>(y, x) = static_cast<float>(std::clamp(distance + 0.5, 0.0, 1.0));
+    }
+  }
+  return cover;
+}
+
+/// The disc in colour on a plain background.
+cv::Mat painted(const cv::Mat& cover, const cv::Vec3d& piece, const cv::Vec3d& background, double scale,
+                int type) {
+  cv::Mat image(cover.size(), type);
+  for (int y = 0; y < cover.rows; ++y) {
+    for (int x = 0; x < cover.cols; ++x) {
+      const double share = cover.at<float>(y, x);
+      const cv::Vec3d colour = (piece * share + background * (1.0 - share)) * scale;
+      if (type == CV_8UC3) image.at<cv::Vec3b>(y, x) = cv::Vec3b(colour);
+      if (type == CV_16UC3) image.at<cv::Vec3w>(y, x) = cv::Vec3w(colour);
+    }
+  }
+  return image;
+}
+
+cv::Mat with_alpha(const cv::Mat& cover) {
+  cv::Mat alpha;
+  cover.convertTo(alpha, CV_8U, 255.0);
+  const std::vector<cv::Mat> channels{cv::Mat(cover.size(), CV_8U, cv::Scalar(51)),
+                                      cv::Mat(cover.size(), CV_8U, cv::Scalar(102)),
+                                      cv::Mat(cover.size(), CV_8U, cv::Scalar(204)), alpha};
+  cv::Mat image;
+  cv::merge(channels, image);
+  return image;
+}
+
+void expect_disc(const Outline& outline, double tolerance) {
+  for (const glm::dvec2& p : outline.points) EXPECT_NEAR(glm::distance(p, kCentre), kRadius, tolerance);
+  EXPECT_NEAR(signed_area(outline.points), M_PI * kRadius * kRadius, 2.0 * M_PI * kRadius * tolerance);
+}
+
+TEST(Extract, ContourOfASoftDiscIsExactToATenthOfAPixel) {
+  const Folder folder;
+  cv::imwrite(folder.file("disc.png"), with_alpha(disc({128, 120})));
+  const Extraction found = extract(folder.file("disc.png"));
+  ASSERT_EQ(found.pieces.size(), 1U);
+  expect_disc(found.pieces[0], 0.1);
+  EXPECT_FALSE(find_crossing(found.pieces[0].points));
+  ASSERT_EQ(found.pieces[0].colour.size(), found.pieces[0].points.size());
+  for (const glm::dvec3& c : found.pieces[0].colour)
+    EXPECT_LT(glm::distance(c, glm::dvec3(0.8, 0.4, 0.2)), 1e-3);
+}
+
+// 8 and 16 bits, PNG and TIFF, light on dark and dark on light: the threshold lies half-way between piece and background.
+TEST(Extract, PlainBackgroundNeedsNoAlpha) {
+  const Folder folder;
+  const cv::Mat cover = disc({128, 120});
+  const cv::Vec3d stone(0.5, 0.6, 0.7);
+  cv::imwrite(folder.file("dark.png"), painted(cover, stone, {0.05, 0.05, 0.05}, 255, CV_8UC3));
+  cv::imwrite(folder.file("white.tif"), painted(cover, stone, {1, 1, 1}, 65535, CV_16UC3));
+  cv::imwrite(folder.file("blue.png"), painted(cover, stone, {0.9, 0.2, 0.1}, 65535, CV_16UC3));
+  for (const char* name : {"dark.png", "white.tif", "blue.png"}) {
+    const Extraction found = extract(folder.file(name));
+    ASSERT_EQ(found.pieces.size(), 1U) << name;
+    expect_disc(found.pieces[0],
+                0.25);  // Otsu's threshold lies between the colours, not just at their middle
+  }
+}
+
+TEST(Extract, JpegIsReadToAPixel) {
+  const Folder folder;
+  cv::imwrite(folder.file("disc.jpg"),
+              painted(disc({128, 120}), {0.5, 0.6, 0.7}, {0.02, 0.02, 0.02}, 255, CV_8UC3));
+  const Extraction found = extract(folder.file("disc.jpg"));
+  ASSERT_EQ(found.pieces.size(), 1U);
+  expect_disc(found.pieces[0], 1.0);
+}
+
+TEST(Extract, HolesAreKeptAndDustIsNot) {
+  const Folder folder;
+  cv::Mat image(200, 300, CV_8UC3, cv::Scalar(250, 250, 250));
+  cv::rectangle(image, {20, 20}, {119, 179}, cv::Scalar(40, 60, 90), cv::FILLED);
+  cv::rectangle(image, {50, 60}, {89, 99}, cv::Scalar(250, 250, 250), cv::FILLED);
+  cv::rectangle(image, {180, 40}, {239, 99}, cv::Scalar(40, 60, 90), cv::FILLED);
+  cv::circle(image, {270, 150}, 3, cv::Scalar(40, 60, 90), cv::FILLED);
+  cv::imwrite(folder.file("two.png"), image);
+  const Extraction found = extract(folder.file("two.png"));
+  ASSERT_EQ(found.pieces.size(), 2U);
+  EXPECT_NEAR(signed_area(found.pieces[0].points), 100.0 * 160.0, 20.0);
+  ASSERT_EQ(found.pieces[0].holes.size(), 1U);
+  EXPECT_NEAR(signed_area(found.pieces[0].holes[0]), -40.0 * 40.0, 10.0);
+  EXPECT_NEAR(signed_area(found.pieces[1].points), 60.0 * 60.0, 10.0);
+  EXPECT_TRUE(found.pieces[1].holes.empty());
+}
+
+TEST(Extract, PieceAtTheBorderIsTakenWithANoteOrLeftOut) {
+  const Folder folder;
+  cv::Mat image(100, 200, CV_8UC3, cv::Scalar(250, 250, 250));
+  cv::rectangle(image, {0, 20}, {59, 79}, cv::Scalar(40, 60, 90), cv::FILLED);
+  cv::imwrite(folder.file("one.png"), image);
+  const Extraction one = extract(folder.file("one.png"));
+  ASSERT_EQ(one.pieces.size(), 1U);
+  EXPECT_EQ(one.notes.size(), 1U);
+  EXPECT_NEAR(signed_area(one.pieces[0].points), 60.0 * 60.0, 5.0);
+  cv::rectangle(image, {120, 30}, {159, 69}, cv::Scalar(40, 60, 90), cv::FILLED);
+  cv::imwrite(folder.file("both.png"), image);
+  const Extraction both = extract(folder.file("both.png"));
+  ASSERT_EQ(both.pieces.size(), 1U);
+  EXPECT_EQ(both.notes.size(), 1U);
+  EXPECT_NEAR(signed_area(both.pieces[0].points), 40.0 * 40.0, 5.0);
+}
+
+void expect_refusal(const std::string& path, const std::string& reason, const ExtractOptions& options = {}) {
+  try {
+    extract(path, options);
+    FAIL() << path;
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(path), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
+  }
+}
+
+TEST(Extract, PicturesWithoutAPieceSaySo) {
+  const Folder folder;
+  cv::Mat plain(60, 80, CV_8UC3, cv::Scalar(200, 200, 200));
+  cv::imwrite(folder.file("plain.png"), plain);
+  expect_refusal(folder.file("plain.png"), "no piece stands out");
+  cv::imwrite(folder.file("glass.png"), cv::Mat(60, 80, CV_8UC4, cv::Scalar(9, 9, 9, 0)));
+  expect_refusal(folder.file("glass.png"), "transparent");
+}
+
+TEST(Extract, BrokenFilesAreNamed) {
+  const Folder folder;
+  std::ofstream(folder.file("empty.png")).close();
+  expect_refusal(folder.file("empty.png"), "is empty");
+  std::ofstream(folder.file("text.png")) << "no picture at all";
+  expect_refusal(folder.file("text.png"), "is no PNG, JPEG or TIFF");
+  EXPECT_THROW(extract(folder.file("missing.png")), IoError);
+  cv::imwrite(folder.file("disc.png"), with_alpha(disc({128, 120})));
+  std::filesystem::resize_file(folder.file("disc.png"), 40);
+  expect_refusal(folder.file("disc.png"), "cannot be decoded");
+}
+
+TEST(Extract, HugeClaimIsRefusedBeforeDecoding) {
+  const Folder folder;
+  cv::imwrite(folder.file("disc.png"), with_alpha(disc({128, 120})));
+  std::fstream file(folder.file("disc.png"), std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(16);
+  file.write("\x00\x01\x00\x00\x00\x01\x00\x00", 8);  // 65536 x 65536
+  file.close();
+  expect_refusal(folder.file("disc.png"), "65536 x 65536");
+  ExtractOptions options;
+  options.max_pixels = 1000;
+  cv::imwrite(folder.file("disc.tif"), with_alpha(disc({128, 120})));
+  expect_refusal(folder.file("disc.tif"), "128 x 120", options);
+  cv::imwrite(folder.file("disc.jpg"), painted(disc({128, 120}), {0.5, 0.6, 0.7}, {0, 0, 0}, 255, CV_8UC3));
+  expect_refusal(folder.file("disc.jpg"), "128 x 120", options);
+}
+
+}  // namespace
+}  // namespace rejoin::outline

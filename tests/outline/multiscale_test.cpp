@@ -1,0 +1,101 @@
+#include "outline/multiscale.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/parallel.hpp"
+#include "shapes.hpp"
+
+namespace rejoin::outline {
+namespace {
+
+using testing::broken_tile;
+using testing::BrokenTile;
+
+std::vector<Piece> pieces_of(const BrokenTile& tile) {
+  return {{"lower", "", tile.lower}, {"upper", "", tile.upper}};
+}
+
+double worst_distance(const Planar& pose, const Planar& truth, const Outline& b) {
+  double worst = 0.0;
+  for (const glm::dvec2& p : b.points) worst = std::max(worst, glm::distance(pose(p), truth(p)));
+  return worst;
+}
+
+TEST(Multiscale, BrokenTileIsPutTogether) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const BrokenTile tile =
+        broken_tile(300, 120, {1.1 * static_cast<double>(seed), {500, -200}, false}, seed);
+    const std::vector<Piece> pieces = pieces_of(tile);
+    const auto matcher = make_multiscale();
+    matcher->prepare(pieces);
+    const PairResult result = matcher->match(0, 1, Context());
+    ASSERT_FALSE(result.candidates.empty()) << seed;
+    const JoinCandidate& best = result.candidates[0];
+    EXPECT_LT(worst_distance(best.pose, tile.upper_to_lower, tile.upper), 1.5)
+        << seed;  // a unit is a sample of the outline
+    EXPECT_GT(best.score, 0.9) << seed;
+    // The line's ends meet the tile's straight sides, where the smoothed borders part.
+    const double whole = perimeter(tile.upper.points) - (300.0 + 2 * 120.0);
+    EXPECT_NEAR(best.boundary.length, whole, 0.15 * whole) << seed;
+  }
+}
+
+TEST(Multiscale, StrangersGetALowScore) {
+  const BrokenTile one = broken_tile(300, 120, {}, 21);
+  const BrokenTile other = broken_tile(300, 120, {}, 22);
+  const std::vector<Piece> pieces{{"a", "", one.lower}, {"b", "", other.upper}};
+  const auto matcher = make_multiscale();
+  matcher->prepare(pieces);
+  const PairResult result = matcher->match(0, 1, Context());
+  for (const JoinCandidate& candidate : result.candidates) EXPECT_LT(candidate.score, 0.5);
+}
+
+TEST(Multiscale, StraightSidesAloneAreNoJoin) {
+  Outline square;
+  testing::add_run(square.points, {0, 0}, {200, 0});
+  testing::add_run(square.points, {200, 0}, {200, 200});
+  testing::add_run(square.points, {200, 200}, {0, 200});
+  testing::add_run(square.points, {0, 200}, {0, 0});
+  const std::vector<Piece> pieces{{"a", "", square}, {"b", "", square}};
+  const auto matcher = make_multiscale();
+  matcher->prepare(pieces);
+  const PairResult result = matcher->match(0, 1, Context());
+  for (const JoinCandidate& candidate : result.candidates) EXPECT_LT(candidate.score, 0.3);
+}
+
+TEST(Multiscale, OneThreadAndManyGiveTheSame) {
+  const BrokenTile tile = broken_tile(300, 120, {0.4, {}, false}, 6);
+  const std::vector<Piece> pieces = pieces_of(tile);
+  std::vector<PairResult> results;
+  for (const int threads : {1, 4}) {
+    const ThreadLimit limit(threads);
+    const auto matcher = make_multiscale();
+    matcher->prepare(pieces);
+    results.push_back(matcher->match(0, 1, Context()));
+  }
+  ASSERT_EQ(results[0].candidates.size(), results[1].candidates.size());
+  for (std::size_t i = 0; i < results[0].candidates.size(); ++i) {
+    EXPECT_EQ(results[0].candidates[i].score, results[1].candidates[i].score);
+    EXPECT_EQ(results[0].candidates[i].pose.translation, results[1].candidates[i].pose.translation);
+  }
+}
+
+// The unit (here a power of two, which rounds nothing) and the place of the pieces do not matter.
+TEST(Multiscale, UnitAndPlaceDoNotMatter) {
+  const BrokenTile tile = broken_tile(300, 120, {2.0, {40, 30}, false}, 7);
+  std::vector<Piece> pieces = pieces_of(tile);
+  const auto matcher = make_multiscale();
+  matcher->prepare(pieces);
+  const JoinCandidate before = matcher->match(0, 1, Context()).candidates.at(0);
+  constexpr double kUnit = 1.0 / 1024.0;
+  for (Piece& piece : pieces) {
+    for (glm::dvec2& p : piece.outline.points) p *= kUnit;
+  }
+  matcher->prepare(pieces);
+  const JoinCandidate after = matcher->match(0, 1, Context()).candidates.at(0);
+  EXPECT_NEAR(after.score, before.score, 1e-6);
+  EXPECT_LT(glm::distance(after.pose.translation, before.pose.translation * kUnit), 1e-6);
+}
+
+}  // namespace
+}  // namespace rejoin::outline

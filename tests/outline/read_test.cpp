@@ -1,0 +1,133 @@
+#include "outline/read.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "core/error.hpp"
+
+namespace rejoin::outline {
+namespace {
+
+class Read : public ::testing::Test {
+ protected:
+  Read() {
+    folder_ = std::filesystem::temp_directory_path() / ("rejoin-read-" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder_);
+  }
+  ~Read() override { std::filesystem::remove_all(folder_); }
+
+  std::string write(const std::string& name, const std::string& text) const {
+    const std::string path = (folder_ / name).string();
+    std::ofstream(path, std::ios::binary) << text;
+    return path;
+  }
+
+  void expect_refusal(const std::string& name, const std::string& text, const std::string& reason) const {
+    const std::string path = write(name, text);
+    try {
+      read_pieces(path);
+      FAIL() << name;
+    } catch (const InputError& error) {
+      EXPECT_EQ(std::string(error.what()).find(path), 0U) << error.what();
+      EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
+    }
+  }
+
+  std::filesystem::path folder_;
+};
+
+double only_area(const PieceSet& set) {
+  EXPECT_EQ(set.pieces.size(), 1U);
+  return set.pieces.empty() ? 0.0 : signed_area(set.pieces[0].outline.points);
+}
+
+TEST_F(Read, CsvWithAnySeparatorAndLineEnd) {
+  EXPECT_DOUBLE_EQ(only_area(read_pieces(write("a.csv", "x,y\n0,0\n0,2\n2,2\n2,0\n"))), 4.0);
+  EXPECT_DOUBLE_EQ(only_area(read_pieces(write("b.txt", "0;0\r\n2;0\r\n2;2\r\n0;2\r\n0;0\r\n"))), 4.0);
+  EXPECT_DOUBLE_EQ(only_area(read_pieces(write("c.csv", "# km\n0 0\n2e0 0\n\n2 2\n0\t2"))), 4.0);
+}
+
+TEST_F(Read, BrokenCsvNamesTheLine) {
+  expect_refusal("a.csv", "x,y\n0,0\n1;abc\n1,1\n0,1\n", "line 3");
+  expect_refusal("b.csv", "x,y\n", "no points");
+  expect_refusal("c.csv", "0,0\n1,0\n1,nan\n0,1\n", "point 3");
+  expect_refusal("d.csv", "0,0\n1,0\n0,1\n", "3 points");
+  expect_refusal("e.csv", "", "empty");
+}
+
+TEST_F(Read, SvgShapesWithTransformsAndHoles) {
+  const std::string svg =
+      "<?xml version='1.0'?><svg xmlns='http://www.w3.org/2000/svg'><g transform='translate(100 50) "
+      "scale(2)'>"
+      "<path d='M0 0h10v10h-10z m2,2 0 4 4 0 0-4z'/></g><polygon points='0,0 5,0 5,5 0,5'/><defs><rect "
+      "width='9' "
+      "height='9'/></defs></svg>";
+  const PieceSet set = read_pieces(write("a.svg", svg));
+  ASSERT_EQ(set.pieces.size(), 2U);
+  EXPECT_DOUBLE_EQ(signed_area(set.pieces[0].outline.points), 400.0);
+  ASSERT_EQ(set.pieces[0].outline.holes.size(), 1U);
+  EXPECT_DOUBLE_EQ(signed_area(set.pieces[0].outline.holes[0]), -64.0);
+  EXPECT_DOUBLE_EQ(signed_area(set.pieces[1].outline.points), 25.0);
+  EXPECT_EQ(set.pieces[1].name, "a.svg#2");
+}
+
+// A circle from two half arcs and one from four cubic quarters.
+TEST_F(Read, SvgCurvesAreFlattened) {
+  const double circle = M_PI * 100.0;
+  EXPECT_NEAR(only_area(read_pieces(
+                  write("arc.svg", "<svg><path d='M-10 0A10 10 0 0110 0 10 10 0 01-10 0Z'/></svg>"))),
+              circle, 0.01 * circle);
+  EXPECT_NEAR(only_area(read_pieces(
+                  write("cubic.svg",
+                        "<svg><path d='M10,0 C10,5.523 5.523,10 0,10 S-10,5.523 -10,0 -5.523,-10 0,-10 "
+                        "10-5.523 10 0'/></svg>"))),
+              circle, 0.01 * circle);
+  EXPECT_NEAR(only_area(read_pieces(write("quad.svg", "<svg><path d='M0 0Q10 20 20 0Z'/></svg>"))),
+              400.0 / 3.0, 1.0);
+}
+
+TEST_F(Read, BrokenSvgIsRefused) {
+  expect_refusal("a.svg", "<svg><path d='M0 0 L", "no SVG");
+  expect_refusal("b.svg", "<svg><path d='M0 0 L 1 x'/></svg>", "path data");
+  expect_refusal("c.svg", "<svg></svg>", "no closed shape");
+}
+
+TEST_F(Read, GeoJsonPolygonsWithHoles) {
+  const std::string text =
+      R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{},"geometry":
+    {"type":"Polygon","coordinates":[[[0,0],[10,0],[10,10],[0,10],[0,0]],[[2,2],[4,2],[4,4],[2,4],[2,2]]]}},
+    {"type":"Feature","geometry":{"type":"MultiPolygon","coordinates":[[[[20,0,5],[21,0,5],[21,1,5],[20,1,5]]]]}}]})";
+  const PieceSet set = read_pieces(write("a.geojson", text));
+  ASSERT_EQ(set.pieces.size(), 2U);
+  EXPECT_DOUBLE_EQ(signed_area(set.pieces[0].outline.points), 100.0);
+  ASSERT_EQ(set.pieces[0].outline.holes.size(), 1U);
+  EXPECT_DOUBLE_EQ(signed_area(set.pieces[0].outline.holes[0]), -4.0);
+  EXPECT_DOUBLE_EQ(signed_area(set.pieces[1].outline.points), 1.0);
+}
+
+TEST_F(Read, BrokenGeoJsonIsRefused) {
+  expect_refusal("a.geojson", "{\"type\":", "no JSON");
+  expect_refusal("b.geojson", R"({"type":"Point","coordinates":[1,2]})", "no polygon");
+  expect_refusal("c.geojson", R"({"type":"Polygon","coordinates":[[[0,0],[1,"a"]]]})", "polygon 1: point 2");
+  expect_refusal("d.geojson", R"({"type":7,"coordinates":3})", "no polygon");
+}
+
+TEST_F(Read, FolderIsReadInTheOrderOfNames) {
+  write("b.csv", "0,0\n1,0\n1,1\n0,1\n");
+  write("a.csv", "0,0\n2,0\n2,2\n0,2\n");
+  write("truth.json", "{}");
+  write("notes.md", "nothing");
+  const PieceSet set = read_folder(folder_.string());
+  ASSERT_EQ(set.pieces.size(), 2U);
+  EXPECT_EQ(set.pieces[0].name, "a.csv");
+  EXPECT_EQ(set.pieces[1].name, "b.csv");
+  EXPECT_THROW(read_folder((folder_ / "missing").string()), IoError);
+  std::filesystem::create_directories(folder_ / "empty");
+  EXPECT_THROW(read_folder((folder_ / "empty").string()), InputError);
+  EXPECT_THROW(read_pieces((folder_ / "notes.md").string()), InputError);
+}
+
+}  // namespace
+}  // namespace rejoin::outline
