@@ -1,0 +1,215 @@
+#include "batch/batch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "batch/inputs.hpp"
+#include "batch/pace.hpp"
+#include "batch/search_pair.hpp"
+#include "batch/shelf.hpp"
+#include "batch/table.hpp"
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/parallel.hpp"
+#include "core/version.hpp"
+
+namespace rejoin::batch {
+namespace fs = std::filesystem;
+namespace {
+
+struct PairOfIndices {
+  std::size_t a;
+  std::size_t b;
+};
+
+/// The work of one call of run(), with what it needs at hand.
+class Work {
+ public:
+  Work(const fs::path& inputs, const fs::path& output, const Options& options, Listener& listener,
+       const Context& context)
+      : inputs_(inputs),
+        output_(output),
+        options_(options),
+        listener_(listener),
+        context_(context),
+        names_(find_scans(inputs)),
+        tiles_(tiles_of(names_.size(), options.shard)),
+        run_(open(output)),
+        shelf_(output / "fragments") {}
+
+  Summary run() {
+    begin();
+    for (const Tile& tile : tiles_) {
+      if (context_.cancelled()) break;
+      do_tile(tile);
+    }
+    write_table(run_, output_ / kTableName);
+    return summary();
+  }
+
+ private:
+  static store::Run open(const fs::path& output) {
+    require_writable_folder(output / "fragments");
+    return store::Run::write(output);
+  }
+
+  /// Brings the database to the inputs and options of this run.
+  void begin() {
+    std::vector<store::Fragment> wanted = describe_inputs();
+    const store::Parameters parameters{kVersion, parameters_json(options_.match), options_.match.seed};
+    const Shard& shard = options_.shard;
+    const auto forgotten = run_.begin(parameters, wanted,
+                                      shard.count > 1 ? fmt::format("{}/{}", shard.number, shard.count) : "");
+    if (options_.retry) run_.forget_failures();
+    for (const store::Fragment& fragment : run_.fragments()) fragments_[fragment.name] = fragment;
+    for (const store::Run::Done& pair : run_.done()) {
+      done_.emplace(pair.a, pair.b);
+      progress_.failed += pair.failed ? 1 : 0;
+    }
+    for (const Tile& tile : tiles_) progress_.total += tile.pairs();
+    progress_.done = done_.size();
+    done_before_ = done_.size();
+    listener_.on_start(forgotten, progress_);
+    for (const auto& [name, fragment] : fragments_) {
+      if (fragment.state == store::FragmentState::Bad) listener_.on_fragment(fragment, progress_);
+    }
+  }
+
+  /// Name, path and hash of the fragments of this shard.
+  std::vector<store::Fragment> describe_inputs() const {
+    std::set<std::size_t> indices;
+    for (const Tile& tile : tiles_) {
+      for (const std::size_t k : tile.fragments()) indices.insert(k);
+    }
+    std::vector<store::Fragment> list;
+    list.reserve(indices.size());
+    for (const std::size_t k : indices) {
+      store::Fragment fragment;
+      fragment.name = names_[k];
+      fragment.path = (inputs_ / names_[k]).string();
+      list.push_back(std::move(fragment));
+    }
+    run_side_by_side(list.size(), [&](std::size_t k) {
+      try {
+        list[k].hash = content_hash(list[k].path);
+      } catch (const IoError&) {
+        list[k].hash =
+            "unreadable";  // becomes a bad fragment when it is loaded, and a changed one once it can be read
+      }
+    });
+    return list;
+  }
+
+  void do_tile(const Tile& tile) {
+    const std::vector<PairOfIndices> pending = pending_of(tile);
+    if (pending.empty()) return;
+    std::set<std::size_t> needed;
+    for (const PairOfIndices& pair : pending) needed.insert({pair.a, pair.b});
+    std::vector<store::Fragment> wanted;
+    wanted.reserve(needed.size());
+    for (const std::size_t k : needed) wanted.push_back(fragments_.at(names_[k]));
+    shelf_.hold(wanted, context_, [this](const store::Fragment& fragment) { take(fragment); });
+    if (progress_.done == done_before_) pace_.start();
+    run_side_by_side(pending.size(), [&](std::size_t k) {
+      if (!context_.cancelled()) do_pair(pending[k]);
+    });
+  }
+
+  std::vector<PairOfIndices> pending_of(const Tile& tile) const {
+    std::vector<PairOfIndices> pending;
+    for (std::size_t a = tile.a_first; a < tile.a_last; ++a) {
+      for (std::size_t b = std::max(a + 1, tile.b_first); b < tile.b_last; ++b) {
+        const std::pair ids(fragments_.at(names_[a]).id, fragments_.at(names_[b]).id);
+        if (done_.find(ids) == done_.end()) pending.push_back({a, b});
+      }
+    }
+    return pending;
+  }
+
+  void do_pair(const PairOfIndices& indices) {
+    const store::Fragment& a = fragments_.at(names_[indices.a]);
+    const store::Fragment& b = fragments_.at(names_[indices.b]);
+    const match::Fragment* prepared_a = shelf_.find(a.name);
+    const match::Fragment* prepared_b = shelf_.find(b.name);
+    std::optional<Searched> found;
+    if (prepared_a != nullptr && prepared_b != nullptr) {
+      const Context alone({}, context_);
+      found = search_pair(*prepared_a, *prepared_b, options_.match, alone);
+    } else if (!context_.cancelled()) {
+      found = unusable(prepared_a == nullptr ? a : b);
+    }
+    if (!found) return;
+    found->pair.a = a.id;
+    found->pair.b = b.id;
+    found->pair.name_a = a.name;
+    found->pair.name_b = b.name;
+    keep(*found);
+  }
+
+  static Searched unusable(const store::Fragment& fragment) {
+    Searched found;
+    found.pair.error = fragment.error;
+    found.pair.result = "{}";
+    return found;
+  }
+
+  void keep(const Searched& found) {
+    const std::lock_guard lock(guard_);
+    run_.save(found.pair, found.candidates);
+    ++progress_.done;
+    progress_.failed += found.pair.stage == store::Stage::Failed ? 1 : 0;
+    progress_.seconds_left = pace_.done_one(progress_.total - progress_.done);
+    listener_.on_pair(found.pair, progress_);
+  }
+
+  void take(const store::Fragment& fragment) {
+    const std::lock_guard lock(guard_);
+    store::Fragment& known = fragments_.at(fragment.name);
+    if (known != fragment) run_.save(fragment);
+    known = fragment;
+    listener_.on_fragment(fragment, progress_);
+  }
+
+  Summary summary() {
+    Summary summary;
+    summary.fragments = fragments_.size();
+    for (const auto& [name, fragment] : fragments_) {
+      if (fragment.state == store::FragmentState::Bad) summary.bad.push_back(fragment);
+    }
+    summary.done_before = done_before_;
+    summary.progress = progress_;
+    summary.cancelled = context_.cancelled();
+    return summary;
+  }
+
+  fs::path inputs_;
+  fs::path output_;
+  const Options& options_;
+  Listener& listener_;
+  const Context& context_;
+  std::vector<std::string> names_;
+  std::vector<Tile> tiles_;
+  store::Run run_;
+  Shelf shelf_;
+  std::map<std::string, store::Fragment> fragments_;
+  std::set<std::pair<std::int64_t, std::int64_t>> done_;
+  std::size_t done_before_ = 0;
+  Progress progress_;
+  Pace pace_;
+  std::mutex guard_;  // of run_, fragments_, progress_ and the listener while several threads work
+};
+
+}  // namespace
+
+Summary run(const fs::path& inputs, const fs::path& output, const Options& options, Listener& listener,
+            const Context& context) {
+  return Work(inputs, output, options, listener, context).run();
+}
+
+}  // namespace rejoin::batch

@@ -1,0 +1,62 @@
+/// Every pair of a folder of scans, into a run's database.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "batch/tiles.hpp"
+#include "core/context.hpp"
+#include "match/match.hpp"
+#include "store/run.hpp"
+
+namespace rejoin::batch {
+
+struct Options {
+  match::Options match;
+  Shard shard;
+  bool retry = false;  ///< try again what failed in an earlier run
+};
+
+/// How far a run is.
+struct Progress {
+  std::size_t done = 0;     ///< pairs, those of earlier runs included
+  std::size_t total = 0;    ///< pairs of the shard
+  std::size_t failed = 0;   ///< of those done
+  double seconds_left = 0;  ///< estimate, wall clock; 0 while there is nothing to tell by
+};
+
+/// Hears what happens, as it happens, from one thread at a time.
+class Listener {
+ public:
+  virtual ~Listener() = default;
+  virtual void on_start(const store::Run::Forgotten& /*forgotten*/, const Progress& /*progress*/) {}
+  /// A fragment was made ready, or is bad (those of an earlier run are told at the start).
+  virtual void on_fragment(const store::Fragment& /*fragment*/, const Progress& /*progress*/) {}
+  /// A pair is in the database.
+  virtual void on_pair(const store::Pair& /*pair*/, const Progress& /*progress*/) {}
+};
+
+struct Summary {
+  std::size_t fragments = 0;         ///< that the shard needs
+  std::vector<store::Fragment> bad;  ///< those that cannot be used
+  std::size_t done_before = 0;       ///< pairs found done
+  Progress progress;                 ///< at the end
+  bool cancelled = false;            ///< what is missing is done by the next run
+};
+
+/// Matches all pairs of the folder's scans that the run's database lacks, several side by side.  The same inputs and options give the same
+/// content (but for seconds), whatever the number of threads and however often it was stopped.
+///
+/// A scan that cannot be used, or a pair that fails, is marked and the rest goes on.
+///
+/// \param inputs  folder of scans
+/// \param output  folder of the run, made if it is not there: run.sqlite, fragments/, pairs.csv
+/// \throws IoError     the folders cannot be read or written
+/// \throws InputError  fewer than two scans
+/// \throws StoreError  the database cannot be used, or the disk is full; what is done so far is kept
+Summary run(const std::filesystem::path& inputs, const std::filesystem::path& output, const Options& options,
+            Listener& listener, const Context& context);
+
+}  // namespace rejoin::batch

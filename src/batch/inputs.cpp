@@ -1,0 +1,72 @@
+#include "batch/inputs.hpp"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <memory>
+
+#include "core/error.hpp"
+
+namespace rejoin::batch {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::array<const char*, 7> kExtensions = {".ply", ".obj", ".stl", ".off", ".gltf", ".glb", ".drc"};
+
+bool is_scan(const fs::directory_entry& entry) {
+  std::error_code ignored;
+  if (entry.is_directory(ignored)) return false;
+  std::string extension = entry.path().extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+}
+
+}  // namespace
+
+std::vector<std::string> find_scans(const fs::path& folder) {
+  std::error_code problem;
+  std::vector<std::string> names;
+  for (fs::directory_iterator entry(folder, problem), end; !problem && entry != end;
+       entry.increment(problem)) {
+    if (is_scan(*entry)) names.push_back(entry->path().filename().string());
+  }
+  if (problem) {
+    throw IoError(folder.string(), fmt::format("cannot be read ({})", problem.message()),
+                  "give the folder of the scans");
+  }
+  if (names.size() < 2) {
+    throw InputError(folder.string(), names.empty() ? "holds no scan" : "holds one scan only",
+                     "give a folder of ply, obj, stl, off, gltf, glb or drc files");
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string content_hash(const fs::path& path) {
+  const auto refuse = [&path](int reason) {
+    throw IoError(path.string(), fmt::format("cannot be read ({})", std::strerror(reason)),
+                  "check the file and its permissions");
+  };
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) refuse(errno);
+  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), &XXH3_freeState);
+  XXH3_128bits_reset(state.get());
+  std::vector<char> block(1U << 20U);
+  while (file) {
+    file.read(block.data(), static_cast<std::streamsize>(block.size()));
+    XXH3_128bits_update(state.get(), block.data(), static_cast<std::size_t>(file.gcount()));
+  }
+  if (file.bad()) refuse(errno);
+  const XXH128_hash_t hash = XXH3_128bits_digest(state.get());
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+}  // namespace rejoin::batch

@@ -1,0 +1,96 @@
+#include "batch/search_pair.hpp"
+
+#include <chrono>
+#include <exception>
+#include <new>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+
+namespace rejoin::batch {
+namespace {
+
+const char* name_of(match::Verdict verdict) {
+  switch (verdict) {
+    case match::Verdict::Join:
+      return "join";
+    case match::Verdict::Unsure:
+      return "unsure";
+    case match::Verdict::NoJoin:
+      break;
+  }
+  return "no join";
+}
+
+store::Candidate candidate_from(const match::Candidate& found) {
+  store::Candidate candidate;
+  candidate.score = found.score;
+  candidate.pose = found.pose;
+  candidate.facet_a = found.facet_a;
+  candidate.facet_b = found.facet_b;
+  candidate.depth = found.error.depth;
+  candidate.slope = found.error.slope;
+  candidate.raycast = found.error.raycast;
+  candidate.overlap = found.error.overlap;
+  candidate.contact_area = found.error.contact_area;
+  candidate.gap_median = found.error.gap_median;
+  candidate.penetration = found.error.penetration;
+  return candidate;
+}
+
+/// A renderer's name may be no UTF-8, but JSON must be.
+std::string text_of(const nlohmann::json& json) {
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+Searched searched(const match::Result& result) {
+  Searched found;
+  found.pair.stage = store::Stage::Match;
+  found.pair.verdict = name_of(result.verdict);
+  found.pair.result = text_of({{"evaluations", result.evaluations},
+                               {"backend", zbuffer::name_of(result.backend)},
+                               {"renderer", result.renderer},
+                               {"warnings", result.warnings}});
+  found.candidates.reserve(result.candidates.size());
+  for (const match::Candidate& candidate : result.candidates)
+    found.candidates.push_back(candidate_from(candidate));
+  if (!found.candidates.empty()) found.pair.score = found.candidates.front().score;
+  return found;
+}
+
+Searched failed(const std::string& error) {
+  Searched found;
+  found.pair.stage = store::Stage::Failed;
+  found.pair.error = error;
+  found.pair.result = "{}";
+  return found;
+}
+
+}  // namespace
+
+std::optional<Searched> search_pair(const match::Fragment& a, const match::Fragment& b,
+                                    const match::Options& options, const Context& context) {
+  const auto begin = std::chrono::steady_clock::now();
+  Searched found;
+  try {
+    const match::Result result = match::match(a, b, options, context);
+    if (result.cancelled) return std::nullopt;
+    found = searched(result);
+  } catch (const std::bad_alloc&) {
+    found = failed("out of memory; use fewer threads or smaller scans");
+  } catch (const Error& error) {
+    found = failed(error.what());
+  }
+  found.pair.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return found;
+}
+
+std::string parameters_json(const match::Options& options) {
+  return text_of({{"search", options.search == match::Search::Esa ? "esa" : "sweep"},
+                  {"resolution", options.resolution},
+                  {"backend", zbuffer::name_of(options.backend)},
+                  {"chains", options.chains},
+                  {"max_candidates", options.max_candidates}});
+}
+
+}  // namespace rejoin::batch

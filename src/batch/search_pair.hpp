@@ -1,0 +1,27 @@
+/// One pair, from two prepared fragments to a row of the database.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/context.hpp"
+#include "match/match.hpp"
+#include "store/records.hpp"
+
+namespace rejoin::batch {
+
+struct Searched {
+  store::Pair pair;  ///< all but ids and names
+  std::vector<store::Candidate> candidates;
+};
+
+/// Searches the pair.  An error of the search becomes a failed pair.
+/// \return nullopt if it was cancelled
+std::optional<Searched> search_pair(const match::Fragment& a, const match::Fragment& b,
+                                    const match::Options& options, const Context& context);
+
+/// What of the options has an influence on results, as JSON with sorted keys; the seed is kept apart.
+std::string parameters_json(const match::Options& options);
+
+}  // namespace rejoin::batch

@@ -1,0 +1,118 @@
+#include "batch/shelf.hpp"
+
+#include <fmt/format.h>
+
+#include <mutex>
+#include <new>
+#include <optional>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "mesh/load.hpp"
+#include "mesh/save.hpp"
+
+namespace rejoin::batch {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t kLeast = 4;  // faces or points; fewer enclose nothing
+
+void require_body(const mesh::Mesh& scan, const std::string& path) {
+  const bool cloud = scan.is_cloud();
+  if ((cloud ? scan.vertices.size() : scan.faces.size()) >= kLeast) return;
+  throw InputError(path, fmt::format("has fewer than {} {}", kLeast, cloud ? "points" : "faces"),
+                   "give the scan of a whole fragment");
+}
+
+/// The kept surface, if it is there and whole.
+std::optional<mesh::Mesh> kept_surface(const fs::path& kept) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(kept, ignored)) return std::nullopt;
+  try {
+    return mesh::load(kept).mesh;
+  } catch (const Error&) {
+    return std::nullopt;  // cut short by a power failure: made again
+  }
+}
+
+/// \throws StoreError the folder refuses the file: our disk is at fault, not the scan
+void keep(const fs::path& kept, const mesh::Mesh& surface) {
+  try {
+    mesh::save(kept, surface);
+  } catch (const IoError& error) {
+    throw StoreError(kept.string(), "a prepared scan cannot be kept",
+                     fmt::format("free some space and run the command again ({})", error.what()));
+  }
+}
+
+struct Outcome {
+  store::Fragment fragment;
+  std::unique_ptr<const match::Fragment> prepared;
+};
+
+Outcome prepare_one(const store::Fragment& fragment, const fs::path& cache, const Context& context) {
+  Outcome outcome{fragment, nullptr};
+  store::Fragment& record = outcome.fragment;
+  try {
+    outcome.prepared = std::make_unique<const match::Fragment>(load_prepared(fragment, cache, context));
+    record.faces = static_cast<std::int64_t>(outcome.prepared->surface.faces.size());
+    record.diameter = outcome.prepared->diameter;
+    record.state = store::FragmentState::Ready;
+    record.error.clear();
+  } catch (const StoreError&) {
+    throw;
+  } catch (const Error& error) {
+    record.state = store::FragmentState::Bad;
+    record.error = error.what();
+  } catch (const std::bad_alloc&) {
+    record.state = store::FragmentState::Bad;
+    record.error = fragment.path + ": out of memory; use a smaller scan";
+  }
+  return outcome;
+}
+
+}  // namespace
+
+match::Fragment load_prepared(const store::Fragment& fragment, const fs::path& cache,
+                              const Context& context) {
+  const fs::path kept = cache / (fragment.hash + ".drc");
+  std::optional<mesh::Mesh> surface = kept_surface(kept);
+  if (!surface) {
+    mesh::Mesh scan = mesh::load(fragment.path).mesh;
+    require_body(scan, fragment.path);
+    keep(kept, match::prepare(fragment.path, std::move(scan), context).surface);
+    surface = mesh::load(kept).mesh;
+  }
+  return match::prepare(fragment.path, std::move(*surface), context);
+}
+
+void Shelf::hold(const std::vector<store::Fragment>& wanted, const Context& context, const Told& told) {
+  std::map<std::string, std::unique_ptr<const match::Fragment>> kept;
+  std::vector<store::Fragment> missing;
+  for (const store::Fragment& fragment : wanted) {
+    const auto here = held_.find(fragment.name);
+    if (here != held_.end()) {
+      kept.emplace(fragment.name, std::move(here->second));
+    } else if (fragment.state != store::FragmentState::Bad) {
+      missing.push_back(fragment);
+    }
+  }
+  held_ = std::move(kept);
+  std::mutex guard;
+  run_side_by_side(missing.size(), [&](std::size_t k) {
+    if (context.cancelled()) return;
+    const Context alone({}, context);
+    Outcome outcome = prepare_one(missing[k], cache_, alone);
+    const std::lock_guard lock(guard);
+    if (outcome.prepared) held_.emplace(outcome.fragment.name, std::move(outcome.prepared));
+    told(outcome.fragment);
+  });
+}
+
+const match::Fragment* Shelf::find(const std::string& name) const {
+  const auto here = held_.find(name);
+  return here == held_.end() ? nullptr : here->second.get();
+}
+
+}  // namespace rejoin::batch

@@ -1,0 +1,46 @@
+/// Prepared fragments, in memory and on disk.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/context.hpp"
+#include "match/match.hpp"
+#include "store/records.hpp"
+
+namespace rejoin::batch {
+
+/// Loads the fragment's surface for matching: the one kept under `cache` if there is one, else from its scan, whose surface is then
+/// kept (Draco, named after the content's hash).  What is matched is always the kept surface, so that the first run and later ones give
+/// the same bytes.
+/// \param cache  folder, made if it is not there
+/// \throws InputError, IoError the scan cannot be used, or the cache not written
+match::Fragment load_prepared(const store::Fragment& fragment, const std::filesystem::path& cache,
+                              const Context& context);
+
+/// The prepared fragments that the pairs in hand need.
+class Shelf {
+ public:
+  /// What became of a fragment: faces, diameter, state and error are filled in.  Called from one thread at a time.
+  using Told = std::function<void(const store::Fragment&)>;
+
+  explicit Shelf(std::filesystem::path cache) : cache_(std::move(cache)) {}
+
+  /// Puts these fragments on the shelf, side by side, and takes all others off.  One that is marked bad, or turns out so, is left out.
+  /// After a cancel some may be missing.
+  /// \throws IoError the cache cannot be written
+  void hold(const std::vector<store::Fragment>& wanted, const Context& context, const Told& told);
+
+  /// nullptr if it is not on the shelf.
+  const match::Fragment* find(const std::string& name) const;
+
+ private:
+  std::filesystem::path cache_;
+  std::map<std::string, std::unique_ptr<const match::Fragment>> held_;
+};
+
+}  // namespace rejoin::batch
