@@ -1,0 +1,280 @@
+#include "assembly/assembly.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <tuple>
+
+#include "assembly/complete.hpp"
+#include "assembly/grow.hpp"
+#include "assembly/spread.hpp"
+#include "core/parallel.hpp"
+
+namespace rejoin::assembly {
+namespace {
+
+constexpr double kFound = 0.006;    // contact without a candidate: least share of the smaller piece's surface
+constexpr double kContact = 0.001;  // the same where a candidate agrees
+constexpr double kSpacing = 0.15;   // between groups, share of the larger one's size
+
+std::vector<Piece> make_pieces(const std::vector<match::Fragment>& fragments) {
+  std::vector<std::optional<Piece>> slots(fragments.size());
+  parallel_for(fragments.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) slots[k].emplace(fragments[k]);
+  });
+  std::vector<Piece> pieces;
+  pieces.reserve(slots.size());
+  for (auto& slot : slots) pieces.push_back(std::move(*slot));
+  return pieces;
+}
+
+/// The given links in an order that does not depend on theirs, and those that follow from them.
+std::vector<Link> all_links(const std::vector<Piece>& pieces, std::vector<Link> links, const Options& options,
+                            const Context& context) {
+  std::stable_sort(links.begin(), links.end(), [](const Link& x, const Link& y) {
+    return std::tie(y.score, x.a, x.b) < std::tie(x.score, y.a, y.b);
+  });
+  const std::vector<Link> more = completed_triangles(pieces, links, options, context);
+  links.insert(links.end(), more.begin(), more.end());
+  return links;
+}
+
+/// Grows, and again with each strong join first that was left out, as long as that gives more evidence.
+Growth best_growth(Grower& grower, const Options& options, const Context& context) {
+  std::set<std::size_t> first;
+  Growth best = grower.grow(first, context);
+  std::set<std::size_t> tried;
+  for (int k = 0; k < options.retries && !context.cancelled(); ++k) {
+    context.report("grow", static_cast<double>(k) / options.retries);
+    const std::vector<std::size_t> left_out = grower.unsatisfied(best);
+    const auto next =
+        std::find_if(left_out.begin(), left_out.end(), [&](std::size_t l) { return tried.count(l) == 0; });
+    if (next == left_out.end()) break;
+    tried.insert(*next);
+    std::set<std::size_t> with = first;
+    with.insert(*next);
+    Growth other = grower.grow(with, context);
+    if (context.cancelled() || other.evidence <= best.evidence + 1e-9) continue;
+    best = std::move(other);
+    first = std::move(with);
+  }
+  return best;
+}
+
+class Assembler {
+ public:
+  Assembler(const std::vector<match::Fragment>& fragments, const std::vector<Link>& links,
+            const Options& options, const Context& context)
+      : options_(options),
+        pieces_(make_pieces(fragments)),
+        given_(links.size()),
+        links_(all_links(pieces_, links, options, context)),
+        grower_(pieces_, links_, options_) {}
+
+  Result run(const Context& context) {
+    growth_ = best_growth(grower_, options_, context);
+    Result result;
+    result.placements.resize(pieces_.size());
+    number_groups(result);
+    context.report("align", 0.5);
+    for (std::size_t g = 0; g < members_.size(); ++g) {
+      if (!context.cancelled()) align(members_[g]);
+      context.report("align", 0.5 + 0.5 * static_cast<double>(g + 1) / static_cast<double>(members_.size()));
+    }
+    for (const auto& members : members_) find_joins(members, result);
+    std::stable_sort(result.joins.begin(), result.joins.end(),
+                     [](const Join& x, const Join& y) { return x.score > y.score; });
+    lay_out();
+    for (std::size_t k = 0; k < pieces_.size(); ++k) result.placements[k].pose = growth_.poses[k];
+    tell_confidence(result);
+    tell_reasons(result);
+    tell_broken_wishes(result);
+    result.cancelled = context.cancelled();
+    return result;
+  }
+
+ private:
+  bool is_pinned(std::size_t piece) const {
+    const auto& pinned = options_.constraints.pinned;
+    return std::any_of(pinned.begin(), pinned.end(), [&](const auto& p) { return p.first == piece; });
+  }
+
+  void number_groups(Result& result) {
+    std::map<std::size_t, std::vector<std::size_t>> by_group;
+    for (std::size_t k = 0; k < pieces_.size(); ++k) by_group[growth_.group[k]].push_back(k);
+    for (auto& [group, members] : by_group) {
+      if (members.size() > 1 || is_pinned(members.front())) members_.push_back(std::move(members));
+    }
+    std::stable_sort(members_.begin(), members_.end(),
+                     [](const auto& x, const auto& y) { return x.size() > y.size(); });
+    result.groups = static_cast<int>(members_.size());
+    for (std::size_t g = 0; g < members_.size(); ++g) {
+      for (const std::size_t piece : members_[g]) result.placements[piece].group = static_cast<int>(g);
+    }
+  }
+
+  Rigid relative(std::size_t a, std::size_t b) const { return inverse(growth_.poses[a]) * growth_.poses[b]; }
+
+  double smaller_area(std::size_t a, std::size_t b) const {
+    return std::min(pieces_[a].area(), pieces_[b].area());
+  }
+
+  std::vector<Touching> contacts_of(const std::vector<std::size_t>& members) const {
+    std::vector<Touching> contacts;
+    for (std::size_t x = 0; x < members.size(); ++x) {
+      for (std::size_t y = x + 1; y < members.size(); ++y) {
+        const std::size_t a = members[x];
+        const std::size_t b = members[y];
+        const std::size_t link = grower_.agreeing(growth_, a, b);
+        if (link < links_.size()) {
+          const bool same = links_[link].a == a;
+          contacts.push_back({a, b, same ? links_[link].pose : inverse(links_[link].pose), true});
+        } else if (touch(pieces_[a], pieces_[b], relative(a, b)).area > kContact * smaller_area(a, b)) {
+          contacts.push_back({a, b, relative(a, b), false});
+        }
+      }
+    }
+    return contacts;
+  }
+
+  /// Twice, as pieces that come to touch by the first alignment take part in the second.
+  void align(const std::vector<std::size_t>& members) {
+    std::vector<std::size_t> fixed;
+    for (const std::size_t piece : members) {
+      if (is_pinned(piece)) fixed.push_back(piece);
+    }
+    for (int round = 0; round < 2; ++round) {
+      spread_error(pieces_, members, contacts_of(members), fixed, growth_.poses);
+    }
+  }
+
+  bool is_unwanted(std::size_t a, std::size_t b) const {
+    const auto& list = options_.constraints.must_not_join;
+    return std::any_of(list.begin(), list.end(), [&](const auto& p) {
+      return (p.first == a && p.second == b) || (p.first == b && p.second == a);
+    });
+  }
+
+  void find_joins(const std::vector<std::size_t>& members, Result& result) const {
+    const std::set<std::size_t> used(growth_.used.begin(), growth_.used.end());
+    for (std::size_t x = 0; x < members.size(); ++x) {
+      for (std::size_t y = x + 1; y < members.size(); ++y) {
+        const std::size_t a = members[x];
+        const std::size_t b = members[y];
+        const std::size_t link = grower_.agreeing(growth_, a, b);
+        const bool matched = link < links_.size();
+        if (is_unwanted(a, b)) continue;
+        const Touch contact = touch(pieces_[a], pieces_[b], relative(a, b));
+        const double share = contact.area / smaller_area(a, b);
+        if (share < (matched ? kContact : kFound) && !(matched && used.count(link) != 0)) continue;
+        result.joins.push_back(
+            {a, b, matched ? links_[link].score : 0.0, contact.area, contact.gap_median, link >= given_});
+      }
+    }
+  }
+
+  /// Groups side by side along x, so that a viewer shows them apart; a group with pinned members stays.
+  void lay_out() {
+    double edge = 0.0;
+    bool first = true;
+    for (const auto& members : members_) {
+      if (std::any_of(members.begin(), members.end(), [&](std::size_t k) { return is_pinned(k); })) continue;
+      glm::dvec3 low(1e300);
+      glm::dvec3 high(-1e300);
+      for (const std::size_t k : members) {
+        const glm::dvec3 centre = growth_.poses[k](pieces_[k].centre());
+        low = glm::min(low, centre - pieces_[k].radius());
+        high = glm::max(high, centre + pieces_[k].radius());
+      }
+      const glm::dvec3 size = high - low;
+      if (!first) edge += kSpacing * size.x;
+      const glm::dvec3 shift =
+          glm::dvec3(edge, 0, 0) - glm::dvec3(low.x, 0.5 * (low.y + high.y), 0.5 * (low.z + high.z));
+      for (const std::size_t k : members) growth_.poses[k] = Rigid{glm::dmat3(1.0), shift} * growth_.poses[k];
+      edge += (1.0 + kSpacing) * size.x;
+      first = false;
+    }
+  }
+
+  void tell_confidence(Result& result) const {
+    std::vector<double> odds(pieces_.size(), 0.0);
+    std::vector<int> count(pieces_.size(), 0);
+    for (const Join& join : result.joins) {
+      for (const std::size_t piece : {join.a, join.b}) {
+        const double more = count[piece]++ > 0 ? options_.loop_weight : 0.0;  // joins come strongest first
+        odds[piece] += more > 0.0 ? std::max(0.0, log_odds(join.score) + more) : log_odds(join.score);
+      }
+    }
+    for (std::size_t k = 0; k < pieces_.size(); ++k) {
+      Placement& placement = result.placements[k];
+      if (placement.group < 0) continue;
+      placement.confidence = is_pinned(k) ? 1.0 : 1.0 / (1.0 + std::exp(-odds[k]));
+    }
+  }
+
+  static std::string why(const Rejection& rejection, const Link& link) {
+    const std::string join = fmt::format("its join with {{{}}} (score {:.3f})", link.b, link.score);
+    switch (rejection.why) {
+      case Rejection::Why::Overlap:
+        return join + fmt::format(" would put {{{}}} and {{{}}} into each other", rejection.a, rejection.b);
+      case Rejection::Why::Forbidden:
+        return join + fmt::format(" would make {{{}}} and {{{}}} touch, which must not join", rejection.a,
+                                  rejection.b);
+      case Rejection::Why::Contradiction:
+        break;
+    }
+    return join + fmt::format(" contradicts that of {{{}}} and {{{}}}", rejection.a, rejection.b);
+  }
+
+  void tell_reasons(Result& result) const {
+    for (std::size_t k = 0; k < pieces_.size(); ++k) {
+      Placement& placement = result.placements[k];
+      if (placement.group >= 0) continue;
+      for (const Rejection& rejection : growth_.rejected) {
+        Link link = links_[rejection.link];
+        if (link.b == k) std::swap(link.a, link.b);
+        if (link.a != k || !placement.reason.empty()) continue;
+        placement.reason = why(rejection, link);
+      }
+      if (placement.reason.empty()) placement.reason = best_of(k);
+    }
+  }
+
+  /// What the best candidate of a piece without strong ones was.
+  std::string best_of(std::size_t piece) const {
+    const Link* best = nullptr;
+    for (const Link& link : links_) {
+      if ((link.a == piece || link.b == piece) && (best == nullptr || link.score > best->score)) best = &link;
+    }
+    if (best == nullptr) return "no pose was found for it with any other fragment";
+    return fmt::format("no join is sure: the best is with {{{}}}, score {:.3f}",
+                       best->a == piece ? best->b : best->a, best->score);
+  }
+
+  void tell_broken_wishes(Result& result) const {
+    for (const auto& [a, b] : options_.constraints.must_join) {
+      if (growth_.group[a] == growth_.group[b]) continue;
+      result.warnings.push_back(
+          fmt::format("{{{}}} and {{{}}} must join, but at none of their poses they fit", a, b));
+    }
+  }
+
+  const Options& options_;
+  std::vector<Piece> pieces_;
+  std::size_t given_;  ///< of the links; the others follow from them
+  std::vector<Link> links_;
+  Grower grower_;
+  Growth growth_;
+  std::vector<std::vector<std::size_t>> members_;  ///< of every group
+};
+
+}  // namespace
+
+Result assemble(const std::vector<match::Fragment>& fragments, const std::vector<Link>& links,
+                const Options& options, const Context& context) {
+  return Assembler(fragments, links, options, context).run(context);
+}
+
+}  // namespace rejoin::assembly

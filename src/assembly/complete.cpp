@@ -1,0 +1,134 @@
+#include "assembly/complete.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "core/parallel.hpp"
+#include "match/align.hpp"
+#include "match/verify.hpp"
+
+namespace rejoin::assembly {
+namespace {
+
+constexpr double kLeastScore = 0.3;  // of the links that are combined
+constexpr std::size_t kPerPair = 2;
+constexpr std::size_t kMost = 1000;    // combinations
+constexpr double kLikely = 0.5;        // of what comes out
+constexpr double kLeastTouch = 0.001;  // share of the smaller piece's surface
+constexpr double kMostOverlap = 0.03;
+
+using Key = std::pair<std::size_t, std::size_t>;
+
+/// The same join seen from the other side.
+Link turned(const Link& link) {
+  return {link.b, link.a, inverse(link.pose), link.score};
+}
+
+/// The best links of each pair, a < b.
+std::map<Key, std::vector<Link>> best_links(const std::vector<Link>& links) {
+  std::map<Key, std::vector<Link>> result;
+  for (const Link& link : links) {
+    if (link.score < kLeastScore) continue;
+    result[{std::min(link.a, link.b), std::max(link.a, link.b)}].push_back(link.a < link.b ? link
+                                                                                           : turned(link));
+  }
+  for (auto& [key, list] : result) {
+    std::stable_sort(list.begin(), list.end(),
+                     [](const Link& x, const Link& y) { return x.score > y.score; });
+    if (list.size() > kPerPair) list.resize(kPerPair);
+  }
+  return result;
+}
+
+/// All combinations a-k, k-b with a < b; `score` is the product of both.
+std::vector<Link> combinations(const std::vector<Link>& links, std::size_t pieces) {
+  std::vector<std::vector<Link>> from(pieces);  // by its a
+  for (const auto& [key, list] : best_links(links)) {
+    for (const Link& link : list) {
+      from[link.a].push_back(link);
+      from[link.b].push_back(turned(link));
+    }
+  }
+  std::vector<Link> result;
+  for (const auto& around : from) {
+    for (const Link& x : around) {
+      for (const Link& y : around) {
+        if (x.b < y.b) result.push_back({x.b, y.b, inverse(x.pose) * y.pose, x.score * y.score});
+      }
+    }
+  }
+  std::stable_sort(result.begin(), result.end(),
+                   [](const Link& x, const Link& y) { return x.score > y.score; });
+  if (result.size() > kMost) result.resize(kMost);
+  return result;
+}
+
+class Completer {
+ public:
+  Completer(const std::vector<Piece>& pieces, const std::vector<Link>& links, const Options& options)
+      : pieces_(pieces), options_(options) {
+    for (const Link& link : links) known_[{link.a, link.b}].push_back(link.pose);
+  }
+
+  std::optional<Link> judged(const Link& guess) const {
+    const Piece& a = pieces_[guess.a];
+    const Piece& b = pieces_[guess.b];
+    if (is_known(guess) || !are_near(a, b, guess.pose, 0.0)) return std::nullopt;
+    if (touch(a, b, guess.pose).area < kLeastTouch * std::min(a.area(), b.area())) return std::nullopt;
+    const match::Joint joint(a.fragment(), b.fragment());
+    const Rigid from_file{glm::dmat3(1.0), -a.fragment().surface.origin};
+    const Rigid to_file{glm::dmat3(1.0), b.fragment().surface.origin};
+    const double tolerance = joint.tolerance();
+    const Rigid rough =
+        joint.align(from_file * guess.pose * to_file, {24.0 * tolerance, 4.0 * tolerance, 16, 300});
+    const Rigid fine = joint.align(rough, {12.0 * tolerance, 3.0 * tolerance, 20, 0});
+    const double score = match::score_of(match::strength(joint.evidence(fine, 0)));
+    if (score < kLikely) return std::nullopt;
+    const Link link{guess.a, guess.b, inverse(from_file) * fine * inverse(to_file), score};
+    const bool stayed = same_pose(a, b, guess.pose, link.pose, options_);
+    if (!stayed || is_known(link) || overlap(a, b, link.pose) > kMostOverlap) return std::nullopt;
+    return link;
+  }
+
+ private:
+  bool is_known(const Link& link) const {
+    const auto same = [&](const Key& key, const Rigid& pose) {
+      const auto found = known_.find(key);
+      return found != known_.end() &&
+             std::any_of(found->second.begin(), found->second.end(), [&](const Rigid& other) {
+               return same_pose(pieces_[key.first], pieces_[key.second], pose, other, options_);
+             });
+    };
+    return same({link.a, link.b}, link.pose) || same({link.b, link.a}, inverse(link.pose));
+  }
+
+  const std::vector<Piece>& pieces_;
+  const Options& options_;
+  std::map<Key, std::vector<Rigid>> known_;
+};
+
+}  // namespace
+
+std::vector<Link> completed_triangles(const std::vector<Piece>& pieces, const std::vector<Link>& links,
+                                      const Options& options, const Context& context) {
+  const std::vector<Link> guesses = combinations(links, pieces.size());
+  const Completer completer(pieces, links, options);
+  std::vector<std::optional<Link>> found(guesses.size());
+  parallel_for(guesses.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last && !context.cancelled(); ++k)
+      found[k] = completer.judged(guesses[k]);
+  });
+  std::vector<Link> result;
+  for (const auto& link : found) {
+    if (!link) continue;
+    const bool repeated = std::any_of(result.begin(), result.end(), [&](const Link& other) {
+      return other.a == link->a && other.b == link->b &&
+             same_pose(pieces[link->a], pieces[link->b], other.pose, link->pose, options);
+    });
+    if (!repeated) result.push_back(*link);
+  }
+  return result;
+}
+
+}  // namespace rejoin::assembly

@@ -1,0 +1,27 @@
+#include "assembly/evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rejoin::assembly {
+namespace {
+
+constexpr double kMost = 12.0;
+constexpr double kDegree = 0.017453292519943295;
+
+}  // namespace
+
+double log_odds(double score) {
+  if (!(score > 0.0)) return -kMost;
+  if (score >= 1.0) return kMost;
+  return std::clamp(std::log(score / (1.0 - score)), -kMost, kMost);
+}
+
+bool same_pose(const Piece& a, const Piece& b, const Rigid& first, const Rigid& second,
+               const Options& options) {
+  if (angle_between(first, second) > options.same_turn_deg * kDegree) return false;
+  const double diameter = std::max(a.fragment().diameter, b.fragment().diameter);
+  return glm::distance(first(b.centre()), second(b.centre())) <= options.same_shift * diameter;
+}
+
+}  // namespace rejoin::assembly

@@ -1,0 +1,343 @@
+#include "assembly/grow.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rejoin::assembly {
+namespace {
+
+constexpr double kLeastOdds = -6.0;  // links below are noise
+constexpr double kWanted = 1000.0;   // certainty that goes before everything
+constexpr double kFirst = 500.0;
+constexpr double kMostOverlap = 0.03;   // share of the smaller piece's surface that may lie inside another
+constexpr double kTriangle = 1.0;       // what three unsure joins need above the limit for one
+constexpr double kTriangleOdds = -3.0;  // of each
+constexpr std::size_t kProposals = 24;  // per two groups
+constexpr double kLeastTouch = 0.002;   // share of the smaller piece's surface
+
+std::pair<std::size_t, std::size_t> key_of(std::size_t a, std::size_t b) {
+  return {std::min(a, b), std::max(a, b)};
+}
+
+}  // namespace
+
+Grower::Grower(const std::vector<Piece>& pieces, const std::vector<Link>& links, const Options& options)
+    : pieces_(pieces), links_(links), options_(options) {
+  for (const auto& [a, b] : options.constraints.must_join) wanted_.push_back(key_of(a, b));
+  for (const auto& [a, b] : options.constraints.must_not_join) unwanted_.push_back(key_of(a, b));
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    odds_.push_back(log_odds(links[k].score));
+    if (must(unwanted_, k)) continue;
+    if (odds_[k] >= kLeastOdds || must(wanted_, k)) links_of_[key_of(links[k].a, links[k].b)].push_back(k);
+  }
+  for (auto& [pair, list] : links_of_) {
+    std::stable_sort(list.begin(), list.end(),
+                     [&](std::size_t x, std::size_t y) { return odds_[x] > odds_[y]; });
+  }
+}
+
+bool Grower::must(const std::vector<Key>& pairs, std::size_t link) const {
+  return std::find(pairs.begin(), pairs.end(), key_of(links_[link].a, links_[link].b)) != pairs.end();
+}
+
+Growth Grower::grow(const std::set<std::size_t>& first, const Context& context) {
+  State state = start(first);
+  while (!context.cancelled() && (try_best(state) || try_triangle(state))) {
+  }
+  tell_contradictions(state);
+  sum_up(state.growth);
+  return state.growth;
+}
+
+Grower::State Grower::start(const std::set<std::size_t>& first) const {
+  State state;
+  state.first = &first;
+  state.growth.poses.resize(pieces_.size());
+  for (std::size_t k = 0; k < pieces_.size(); ++k) {
+    state.growth.group.push_back(k);
+    state.members[k] = {k};
+  }
+  state.between = links_of_;
+  pin(state);
+  for (const auto& [key, list] : state.between) propose(state, key);
+  return state;
+}
+
+/// Pinned pieces are one group from the start.
+void Grower::pin(State& state) const {
+  const auto& pinned = options_.constraints.pinned;
+  if (pinned.empty()) return;
+  const std::size_t group = pinned.front().first;
+  for (const auto& [piece, pose] : pinned) {
+    state.growth.poses[piece] = pose;
+    state.growth.group[piece] = group;
+    if (piece == group) continue;
+    state.members[group].push_back(piece);
+    state.members.erase(piece);
+  }
+  state.between.clear();
+  for (const auto& [pair, list] : links_of_) {
+    const Key key = key_of(state.growth.group[pair.first], state.growth.group[pair.second]);
+    if (key.first != key.second)
+      state.between[key].insert(state.between[key].end(), list.begin(), list.end());
+  }
+}
+
+Rigid Grower::transform(const State& state, std::size_t link, std::size_t into) const {
+  const Link& l = links_[link];
+  const Rigid b_to_a_group = state.growth.poses[l.a] * l.pose * inverse(state.growth.poses[l.b]);
+  return state.growth.group[l.a] == into ? b_to_a_group : inverse(b_to_a_group);
+}
+
+Grower::Proposal Grower::weigh(const State& state, const Key& key, std::size_t link) const {
+  Proposal proposal{link, odds_[link], links_.size()};
+  const Rigid second_to_first = transform(state, link, key.first);
+  const double sure = log_odds(options_.sure);
+  const Key own = key_of(links_[link].a, links_[link].b);
+  std::map<Key, std::size_t> agreeing;
+  std::map<Key, std::size_t> contrary;
+  for (const std::size_t other : state.between.at(key)) {
+    const Link& l = links_[other];
+    const Key pair = key_of(l.a, l.b);
+    if (pair == own) continue;
+    const bool a_first = state.growth.group[l.a] == key.first;
+    const Rigid b_group_to_a_group = a_first ? second_to_first : inverse(second_to_first);
+    const Rigid predicted = inverse(state.growth.poses[l.a]) * b_group_to_a_group * state.growth.poses[l.b];
+    auto& list = same_pose(pieces_[l.a], pieces_[l.b], l.pose, predicted, options_) ? agreeing : contrary;
+    const auto [place, fresh] = list.try_emplace(pair, other);
+    if (!fresh && odds_[other] > odds_[place->second]) place->second = other;
+  }
+  for (const auto& [pair, other] : agreeing) {
+    proposal.certainty += std::max(0.0, odds_[other] + options_.loop_weight);
+  }
+  for (const auto& [pair, other] : contrary) {
+    if (agreeing.count(pair) != 0 || odds_[other] < sure) continue;
+    proposal.certainty -= odds_[other];
+    proposal.against = other;
+  }
+  if (state.first->count(link) != 0) proposal.certainty += kFirst;
+  if (must(wanted_, link)) proposal.certainty += kWanted;
+  return proposal;
+}
+
+void Grower::propose(State& state, const Key& key) const {
+  std::vector<std::size_t> list = state.between.at(key);
+  std::stable_sort(list.begin(), list.end(),
+                   [&](std::size_t x, std::size_t y) { return odds_[x] > odds_[y]; });
+  std::vector<Proposal> proposals;
+  for (const std::size_t link : list) {
+    if (proposals.size() >= kProposals && !must(wanted_, link) && state.first->count(link) == 0) continue;
+    proposals.push_back(weigh(state, key, link));
+  }
+  std::stable_sort(proposals.begin(), proposals.end(),
+                   [](const Proposal& x, const Proposal& y) { return x.certainty > y.certainty; });
+  state.proposals[key] = std::move(proposals);
+}
+
+/// Uses the most certain proposal of all, or finds that it does not fit.  False: none is certain enough.
+bool Grower::try_best(State& state) {
+  std::vector<Proposal>* best = nullptr;
+  double most = log_odds(options_.sure) - 1e-9;
+  for (auto& [key, list] : state.proposals) {
+    if (list.empty() || list.front().certainty <= most) continue;
+    most = list.front().certainty;
+    best = &list;
+  }
+  if (best == nullptr) return false;
+  const std::size_t link = best->front().link;
+  best->erase(best->begin());
+  if (fits(state, link)) merge(state, link);
+  return true;
+}
+
+/// Whether link three joins what one and two do, at the same pose.
+bool Grower::closes(const State& state, std::size_t one, std::size_t two, std::size_t three) const {
+  const auto group = [&](std::size_t piece) { return state.growth.group[piece]; };
+  const Link& l = links_[three];
+  // The group that links one and two share stands between those that link three joins.
+  const bool a_by_one = group(links_[one].a) == group(l.a) || group(links_[one].b) == group(l.a);
+  const std::size_t by_a = a_by_one ? one : two;
+  const std::size_t by_b = a_by_one ? two : one;
+  const std::size_t middle =
+      group(links_[by_a].a) == group(l.a) ? group(links_[by_a].b) : group(links_[by_a].a);
+  const Rigid a_to_middle = transform(state, by_a, middle);
+  const Rigid b_to_middle = transform(state, by_b, middle);
+  const Rigid predicted =
+      inverse(a_to_middle * state.growth.poses[l.a]) * b_to_middle * state.growth.poses[l.b];
+  return same_pose(pieces_[l.a], pieces_[l.b], l.pose, predicted, options_);
+}
+
+/// Proposals between two groups that may be part of a triangle.
+std::vector<std::size_t> Grower::corners(const State& state, std::size_t g, std::size_t h) const {
+  std::vector<std::size_t> list;
+  const auto found = state.proposals.find(key_of(g, h));
+  if (found == state.proposals.end()) return list;
+  for (const Proposal& p : found->second) {
+    if (p.certainty >= kTriangleOdds) list.push_back(p.link);
+  }
+  return list;
+}
+
+/// Of three groups' links, the three that agree and are surest, if they are surer than `most` together.
+void Grower::look_for_triangle(const State& state, const std::array<std::size_t, 3>& groups, double& most,
+                               std::array<std::size_t, 3>& best) const {
+  const auto third = corners(state, groups[0], groups[2]);
+  if (third.empty()) return;
+  const auto second = corners(state, groups[1], groups[2]);
+  for (const std::size_t x : corners(state, groups[0], groups[1])) {
+    for (const std::size_t y : second) {
+      for (const std::size_t z : third) {
+        const double sum = odds_[x] + odds_[y] + odds_[z] + options_.loop_weight;
+        if (sum <= most || !closes(state, x, y, z)) continue;
+        most = sum;
+        best = {x, y, z};
+      }
+    }
+  }
+}
+
+/// Three groups, each two of which have a join that is not sure, but all three agree.
+bool Grower::try_triangle(State& state) {
+  double most = log_odds(options_.sure) + kTriangle;
+  std::array<std::size_t, 3> best{};
+  for (const auto& [key, list] : state.proposals) {
+    if (corners(state, key.first, key.second).empty()) continue;
+    for (auto third = state.members.upper_bound(key.second); third != state.members.end(); ++third) {
+      look_for_triangle(state, {key.first, key.second, third->first}, most, best);
+    }
+  }
+  if (best[0] == best[1]) return false;
+  for (const std::size_t link : best) {  // whatever happens, this triangle is not tried again
+    auto& list =
+        state.proposals[key_of(state.growth.group[links_[link].a], state.growth.group[links_[link].b])];
+    const auto same = [&](const Proposal& p) { return p.link == link; };
+    list.erase(std::remove_if(list.begin(), list.end(), same), list.end());
+  }
+  std::sort(best.begin(), best.end(), [&](std::size_t x, std::size_t y) { return odds_[x] > odds_[y]; });
+  if (!fits(state, best[0])) return true;
+  merge(state, best[0]);
+  if (fits(state, best[1])) merge(state, best[1]);
+  return true;
+}
+
+double Grower::overlap_of(std::size_t a, std::size_t b, const Rigid& b_to_a) {
+  std::vector<double> key{static_cast<double>(a), static_cast<double>(b)};
+  for (int k = 0; k < 3; ++k) {
+    key.insert(key.end(),
+               {b_to_a.rotation[k].x, b_to_a.rotation[k].y, b_to_a.rotation[k].z, b_to_a.translation[k]});
+  }
+  const auto [place, fresh] = overlaps_.try_emplace(std::move(key), 0.0);
+  if (fresh) place->second = overlap(pieces_[a], pieces_[b], b_to_a);
+  return place->second;
+}
+
+/// Whether the two groups of a link can lie as it says.
+bool Grower::fits(State& state, std::size_t link) {
+  const std::size_t into = state.growth.group[links_[link].a];
+  const std::size_t from = state.growth.group[links_[link].b];
+  const Rigid from_to_into = transform(state, link, into);
+  for (const std::size_t a : state.members[into]) {
+    for (const std::size_t b : state.members[from]) {
+      const Rigid b_to_a = inverse(state.growth.poses[a]) * from_to_into * state.growth.poses[b];
+      if (overlap_of(a, b, b_to_a) > kMostOverlap) {
+        state.growth.rejected.push_back({link, Rejection::Why::Overlap, a, b});
+        return false;
+      }
+      const bool apart = std::find(unwanted_.begin(), unwanted_.end(), key_of(a, b)) != unwanted_.end();
+      const double least = kLeastTouch * std::min(pieces_[a].area(), pieces_[b].area());
+      if (apart && touch(pieces_[a], pieces_[b], b_to_a).area > least) {
+        state.growth.rejected.push_back({link, Rejection::Why::Forbidden, a, b});
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+void Grower::merge(State& state, std::size_t link) const {
+  std::size_t into = state.growth.group[links_[link].a];
+  std::size_t from = state.growth.group[links_[link].b];
+  const auto& pinned = options_.constraints.pinned;
+  const bool fixed = !pinned.empty() && from == pinned.front().first;
+  if (fixed || (state.members[from].size() > state.members[into].size() &&
+                (pinned.empty() || into != pinned.front().first))) {
+    std::swap(into, from);
+  }
+  const Rigid move = transform(state, link, into);
+  for (const std::size_t piece : state.members[from]) {
+    state.growth.poses[piece] = move * state.growth.poses[piece];
+    state.growth.group[piece] = into;
+    state.members[into].push_back(piece);
+  }
+  state.members.erase(from);
+  state.growth.used.push_back(link);
+
+  std::map<Key, std::vector<std::size_t>> moved;
+  for (auto entry = state.between.begin(); entry != state.between.end();) {
+    const auto [g, h] = entry->first;
+    if (g != from && h != from) {
+      ++entry;
+      continue;
+    }
+    const std::size_t other = g == from ? h : g;
+    if (other != into) moved[key_of(into, other)] = std::move(entry->second);
+    state.proposals.erase(entry->first);
+    entry = state.between.erase(entry);
+  }
+  for (auto& [key, list] : moved) {
+    auto& all = state.between[key];
+    all.insert(all.end(), list.begin(), list.end());
+    std::sort(all.begin(), all.end());
+    propose(state, key);
+  }
+}
+
+std::size_t Grower::agreeing(const Growth& growth, std::size_t a, std::size_t b) const {
+  const auto found = links_of_.find(key_of(a, b));
+  if (found == links_of_.end() || growth.group[a] != growth.group[b]) return links_.size();
+  for (const std::size_t k : found->second) {
+    const Link& l = links_[k];
+    const Rigid relative = inverse(growth.poses[l.a]) * growth.poses[l.b];
+    if (same_pose(pieces_[l.a], pieces_[l.b], l.pose, relative, options_)) return k;
+  }
+  return links_.size();
+}
+
+std::vector<std::size_t> Grower::unsatisfied(const Growth& growth) const {
+  std::vector<std::size_t> result;
+  for (const auto& [pair, list] : links_of_) {
+    if (odds_[list.front()] < log_odds(options_.sure)) continue;
+    if (agreeing(growth, pair.first, pair.second) == links_.size()) result.push_back(list.front());
+  }
+  std::stable_sort(result.begin(), result.end(),
+                   [&](std::size_t x, std::size_t y) { return odds_[x] > odds_[y]; });
+  return result;
+}
+
+void Grower::sum_up(Growth& growth) const {
+  const std::set<std::size_t> used(growth.used.begin(), growth.used.end());
+  growth.evidence = 0.0;
+  for (const auto& [pair, list] : links_of_) {
+    if (growth.group[pair.first] != growth.group[pair.second]) continue;
+    const std::size_t link = agreeing(growth, pair.first, pair.second);
+    if (link < links_.size()) {
+      growth.evidence +=
+          used.count(link) != 0 ? odds_[link] : std::max(0.0, odds_[link] + options_.loop_weight);
+    } else if (odds_[list.front()] >= log_odds(options_.sure)) {
+      growth.evidence -= odds_[list.front()];
+    }
+  }
+}
+
+/// Strong links that were never tried because others contradict them.
+void Grower::tell_contradictions(State& state) const {
+  for (const auto& [key, list] : state.proposals) {
+    for (const Proposal& p : list) {
+      if (p.against == links_.size() || odds_[p.link] < log_odds(options_.sure)) continue;
+      const Link& against = links_[p.against];
+      state.growth.rejected.push_back({p.link, Rejection::Why::Contradiction, against.a, against.b});
+    }
+  }
+}
+
+}  // namespace rejoin::assembly

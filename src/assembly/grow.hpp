@@ -1,0 +1,97 @@
+/// Groups that grow by the most certain join.
+#pragma once
+
+#include <array>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "assembly/evidence.hpp"
+
+namespace rejoin::assembly {
+
+/// Why a join was not used.
+struct Rejection {
+  enum class Why { Overlap, Contradiction, Forbidden };
+  std::size_t link = 0;
+  Why why = Why::Overlap;
+  std::size_t a =
+      0;  ///< the fragments that would overlap, touch against the user's will, or whose join contradicts
+  std::size_t b = 0;
+};
+
+/// Groups of fragments with poses.
+struct Growth {
+  std::vector<Rigid> poses;        ///< into the group's frame
+  std::vector<std::size_t> group;  ///< one of the group's members stands for it
+  std::vector<std::size_t> used;   ///< links that made groups one
+  std::vector<Rejection>
+      rejected;         ///< links above the limit that were not used, in the order they were tried
+  double evidence = 0;  ///< log-odds of all links that agree, less those of strong ones that do not
+};
+
+/// Grows groups from the same pieces and links in different orders.
+class Grower {
+ public:
+  /// All must outlive the object.
+  Grower(const std::vector<Piece>& pieces, const std::vector<Link>& links, const Options& options);
+
+  /// \param first  links that go before all others, if they fit
+  Growth grow(const std::set<std::size_t>& first, const Context& context);
+
+  /// Strong links that the growth leaves unsatisfied: those of two groups, or of one group with another pose.
+  std::vector<std::size_t> unsatisfied(const Growth& growth) const;
+
+  /// The link of a pair that agrees with the growth and has the best score; links.size() if none does.
+  std::size_t agreeing(const Growth& growth, std::size_t a, std::size_t b) const;
+
+ private:
+  using Key = std::pair<std::size_t, std::size_t>;  ///< two groups or fragments, the smaller number first
+
+  /// A way to make two groups one.
+  struct Proposal {
+    std::size_t link;
+    double certainty;
+    std::size_t against;  ///< a strong link that contradicts; links.size(): none
+  };
+
+  /// One growth on its way.
+  struct State {
+    Growth growth;
+    std::map<std::size_t, std::vector<std::size_t>> members;
+    std::map<Key, std::vector<std::size_t>> between;  ///< links between two groups
+    std::map<Key, std::vector<Proposal>> proposals;   ///< best first
+    const std::set<std::size_t>* first = nullptr;
+  };
+
+  State start(const std::set<std::size_t>& first) const;
+  void pin(State& state) const;
+  void propose(State& state, const Key& key) const;
+  Proposal weigh(const State& state, const Key& key, std::size_t link) const;
+  bool try_best(State& state);
+  bool try_triangle(State& state);
+  void look_for_triangle(const State& state, const std::array<std::size_t, 3>& groups, double& most,
+                         std::array<std::size_t, 3>& best) const;
+  std::vector<std::size_t> corners(const State& state, std::size_t g, std::size_t h) const;
+  bool closes(const State& state, std::size_t one, std::size_t two, std::size_t three) const;
+  bool fits(State& state, std::size_t link);
+  double overlap_of(std::size_t a, std::size_t b, const Rigid& b_to_a);
+  void merge(State& state, std::size_t link) const;
+  void sum_up(Growth& growth) const;
+  void tell_contradictions(State& state) const;
+
+  /// Takes the second group's frame to the first's, by a link between them.
+  Rigid transform(const State& state, std::size_t link, std::size_t into) const;
+  bool must(const std::vector<Key>& pairs, std::size_t link) const;
+
+  const std::vector<Piece>& pieces_;
+  const std::vector<Link>& links_;
+  const Options& options_;
+  std::vector<double> odds_;                          ///< log-odds, one a link
+  std::map<Key, std::vector<std::size_t>> links_of_;  ///< by fragments, best first
+  std::vector<Key> wanted_, unwanted_;
+  std::map<std::vector<double>, double> overlaps_;  ///< what was computed before, by pair and pose
+};
+
+}  // namespace rejoin::assembly

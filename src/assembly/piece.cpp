@@ -1,0 +1,152 @@
+#include "assembly/piece.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+namespace rejoin::assembly {
+namespace {
+
+constexpr std::size_t kBodySamples = 2500;
+constexpr double kFacing = -0.5;   // normals within 60 degrees of opposite
+constexpr double kClearly = 0.25;  // wall thicknesses; less inside is worn edges and small errors of the pose
+
+std::size_t stride(std::size_t count, std::size_t most) {
+  return most > 0 ? std::max<std::size_t>(1, count / most) : 1;
+}
+
+/// Faces with a corner on an edge that only one face has.
+std::vector<bool> border_faces(const mesh::Mesh& mesh) {
+  std::unordered_map<std::uint64_t, int> uses;
+  uses.reserve(2 * mesh.faces.size());
+  const auto key = [](std::uint32_t a, std::uint32_t b) {
+    return (static_cast<std::uint64_t>(std::min(a, b)) << 32U) | std::max(a, b);
+  };
+  for (const glm::uvec3& face : mesh.faces) {
+    for (int k = 0; k < 3; ++k) ++uses[key(face[k], face[(k + 1) % 3])];
+  }
+  std::vector<bool> corner(mesh.vertices.size(), false);
+  for (const glm::uvec3& face : mesh.faces) {
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t next = face[(k + 1) % 3];
+      if (uses[key(face[k], next)] != 1) continue;
+      corner[face[k]] = true;
+      corner[next] = true;
+    }
+  }
+  std::vector<bool> result(mesh.faces.size());
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const glm::uvec3& face = mesh.faces[f];
+    result[f] = corner[face.x] || corner[face.y] || corner[face.z];
+  }
+  return result;
+}
+
+/// Area of b's body that lies deeper than `limit` inside a.
+double inside_area(const Piece& a, const Piece& b, const Rigid& b_to_a, double limit) {
+  double count = 0.0;
+  for (const glm::vec3& point : b.body().at) {
+    const glm::dvec3 in_a = b_to_a(b.fragment().surface.origin + glm::dvec3(point));
+    if (glm::distance(in_a, a.centre()) > a.radius()) continue;
+    if (a.depth(in_a) > limit) count += 1.0;
+  }
+  return count * b.body_area();
+}
+
+}  // namespace
+
+Piece::Piece(const match::Fragment& fragment) : fragment_(&fragment) {
+  const mesh::Segmentation& facets = fragment.facets;
+  for (std::size_t i = 0; i < facets.samples.size(); ++i) {
+    if (facets.surface[i] != mesh::Surface::Fracture) continue;
+    broken_.at.push_back(facets.samples.points[i]);
+    broken_.normals.push_back(facets.normals[i]);
+  }
+  const std::size_t step = stride(facets.samples.size(), kBodySamples);
+  for (std::size_t i = 0; i < facets.samples.size(); i += step) {
+    body_.at.push_back(facets.samples.points[i]);
+    body_.normals.push_back(facets.normals[i]);
+  }
+  broken_area_ = facets.sample_area;
+  body_area_ = facets.sample_area * static_cast<double>(step);
+  broken_index_ = std::make_unique<mesh::PointIndex>(broken_.at);
+  gap_ = std::make_unique<match::GapField>(fragment.surface);
+  on_border_ = border_faces(fragment.surface);
+  const mesh::Box box = mesh::bounds(fragment.surface);
+  const glm::dvec3 middle = 0.5 * glm::dvec3(box.low + box.high);
+  for (const glm::vec3& vertex : fragment.surface.vertices)
+    radius_ = std::max(radius_, glm::distance(middle, glm::dvec3(vertex)));
+  centre_ = fragment.surface.origin + middle;
+}
+
+double Piece::depth(const glm::dvec3& point) const {
+  const auto hit = gap_->at(glm::vec3(point - fragment_->surface.origin), static_cast<float>(radius_));
+  if (!hit || on_border_[hit->face]) return 0.0;
+  return std::max(0.0, -static_cast<double>(hit->gap));
+}
+
+bool are_near(const Piece& a, const Piece& b, const Rigid& b_to_a, double distance) {
+  return glm::distance(a.centre(), b_to_a(b.centre())) < a.radius() + b.radius() + distance;
+}
+
+double touching(const Piece& a, const Piece& b) {
+  const double ta = a.fragment().facets.wall_thickness;
+  const double tb = b.fragment().facets.wall_thickness;
+  const double thickness = ta > 0 && tb > 0 ? std::min(ta, tb) : 0.0;
+  const double scan = std::max(a.fragment().resolution, b.fragment().resolution);
+  return std::max(thickness > 0 ? 0.05 * thickness : 0.15 * std::max(a.spacing(), b.spacing()), 0.3 * scan);
+}
+
+std::vector<Facing> facing_points(const Piece& a, const Piece& b, const Rigid& b_to_a, double reach,
+                                  std::size_t most) {
+  std::vector<Facing> result;
+  if (!are_near(a, b, b_to_a, reach)) return result;
+  const glm::dvec3 origin_a = a.fragment().surface.origin;
+  const glm::dvec3 origin_b = b.fragment().surface.origin;
+  for (std::size_t i = 0; i < b.broken().at.size(); ++i) {
+    const glm::dvec3 on_b = origin_b + glm::dvec3(b.broken().at[i]);
+    const glm::dvec3 in_a = b_to_a(on_b);
+    if (glm::distance(in_a, a.centre()) > a.radius() + reach) continue;
+    const auto hit = a.broken_index().nearest(glm::vec3(in_a - origin_a));
+    if (!hit || static_cast<double>(hit->second) > reach) continue;
+    const glm::dvec3 normal(a.broken().normals[hit->first]);
+    if (glm::dot(normal, b_to_a.rotation * glm::dvec3(b.broken().normals[i])) > kFacing) continue;
+    result.push_back({origin_a + glm::dvec3(a.broken().at[hit->first]), normal, on_b});
+  }
+  const std::size_t step = stride(result.size(), most);
+  if (step == 1) return result;
+  std::vector<Facing> fewer;
+  fewer.reserve(result.size() / step + 1);
+  for (std::size_t i = 0; i < result.size(); i += step) fewer.push_back(result[i]);
+  return fewer;
+}
+
+Touch touch(const Piece& a, const Piece& b, const Rigid& b_to_a) {
+  const double tolerance = touching(a, b);
+  const double aside = std::max(a.spacing(), b.spacing());
+  std::vector<double> gaps;
+  for (const Facing& facing : facing_points(a, b, b_to_a, aside + tolerance, 0)) {
+    const glm::dvec3 offset = b_to_a(facing.on_b) - facing.on_a;
+    const double gap = glm::dot(offset, facing.normal_a);
+    if (std::abs(gap) > tolerance || glm::length(offset - gap * facing.normal_a) > aside) continue;
+    gaps.push_back(std::abs(gap));
+  }
+  if (gaps.empty()) return {};
+  const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
+  std::nth_element(gaps.begin(), middle, gaps.end());
+  return {static_cast<double>(gaps.size()) * b.broken_area(), *middle};
+}
+
+double overlap(const Piece& a, const Piece& b, const Rigid& b_to_a) {
+  if (!are_near(a, b, b_to_a, 0.0)) return 0.0;
+  const double ta = a.fragment().facets.wall_thickness;
+  const double tb = b.fragment().facets.wall_thickness;
+  const double thickness = ta > 0 && tb > 0 ? std::min(ta, tb) : 0.0;
+  const double scan = std::max(a.fragment().resolution, b.fragment().resolution);
+  const double size = std::min(a.fragment().diameter, b.fragment().diameter);
+  const double limit = std::max(thickness > 0 ? kClearly * thickness : 0.01 * size, 2.0 * scan);
+  const double area = inside_area(a, b, b_to_a, limit) + inside_area(b, a, inverse(b_to_a), limit);
+  return area / std::min(a.area(), b.area());
+}
+
+}  // namespace rejoin::assembly

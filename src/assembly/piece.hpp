@@ -1,0 +1,84 @@
+/// A fragment as assembly looks at it: where it touches others, and where it would be inside them.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "match/gap.hpp"
+#include "match/match.hpp"
+#include "mesh/point_index.hpp"
+
+namespace rejoin::assembly {
+
+/// Points with unit normals, relative to the fragment's origin.
+struct Points {
+  std::vector<glm::vec3> at;
+  std::vector<glm::vec3> normals;
+};
+
+/// Const members may be called from several threads.
+class Piece {
+ public:
+  /// \param fragment  kept by reference, must outlive the piece
+  explicit Piece(const match::Fragment& fragment);
+
+  const match::Fragment& fragment() const { return *fragment_; }
+  const Points& broken() const { return broken_; }  ///< samples of the broken surface
+  const Points& body() const { return body_; }      ///< samples of all of it, about 2,500
+  const mesh::PointIndex& broken_index() const { return *broken_index_; }
+  double broken_area() const { return broken_area_; }  ///< that one broken sample stands for
+  double body_area() const { return body_area_; }      ///< that one body sample stands for
+  double spacing() const { return fragment_->facets.samples.spacing; }
+  double area() const { return body_area_ * static_cast<double>(body_.at.size()); }
+
+  glm::dvec3 centre() const { return centre_; }  ///< of the ball around it, file coordinates
+  double radius() const { return radius_; }
+
+  /// How deep a point lies inside, mesh units; 0 outside, and where an open border makes it uncertain.
+  /// \param point  file coordinates
+  double depth(const glm::dvec3& point) const;
+
+ private:
+  const match::Fragment* fragment_;
+  Points broken_;
+  Points body_;
+  std::unique_ptr<mesh::PointIndex> broken_index_;
+  std::unique_ptr<match::GapField> gap_;
+  std::vector<bool> on_border_;  ///< faces with a corner on an open edge
+  double broken_area_ = 0;
+  double body_area_ = 0;
+  glm::dvec3 centre_{0.0};
+  double radius_ = 0;
+};
+
+/// Two of b's and a's broken points that face each other.
+struct Facing {
+  glm::dvec3 on_a;      ///< a's file coordinates
+  glm::dvec3 normal_a;  ///< a's axes
+  glm::dvec3 on_b;      ///< b's file coordinates
+};
+
+/// b's broken points with their nearest neighbours on a's broken surface, within `reach` and face to face.
+/// \param most  about how many are returned at most; 0: all
+std::vector<Facing> facing_points(const Piece& a, const Piece& b, const Rigid& b_to_a, double reach,
+                                  std::size_t most);
+
+/// Whether the balls around two pieces come within a distance of each other.
+bool are_near(const Piece& a, const Piece& b, const Rigid& b_to_a, double distance);
+
+/// Distance within which broken surfaces touch: as match::Joint::tolerance().
+double touching(const Piece& a, const Piece& b);
+
+struct Touch {
+  double area = 0;        ///< squared mesh units
+  double gap_median = 0;  ///< of |gap|, mesh units
+};
+
+/// The broken surfaces' contact.
+Touch touch(const Piece& a, const Piece& b, const Rigid& b_to_a);
+
+/// Surface of the two that lies clearly inside the other, as a share of the smaller one's surface.
+double overlap(const Piece& a, const Piece& b, const Rigid& b_to_a);
+
+}  // namespace rejoin::assembly

@@ -1,0 +1,29 @@
+/// Alignment of all fragments of an assembly together.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "assembly/piece.hpp"
+
+namespace rejoin::assembly {
+
+/// Two pieces that touch, and how the pair alone would lie.
+struct Touching {
+  std::size_t a = 0;  ///< into the pieces
+  std::size_t b = 0;
+  Rigid pose;           ///< b -> a, file coordinates: what the pair's own alignment said
+  bool matched = true;  ///< false: `pose` is only where the assembly has put the two, and holds nothing
+};
+
+/// Moves the members of a group so that all their contacts fit as well as they can together: robust point-to-plane
+/// residuals between the broken surfaces of every touching pair, both ways, and a weak pull towards the pairs' own poses
+/// that holds what contact leaves free.  Gauss-Newton with Tukey weights whose reach shrinks.
+/// \param members  piece numbers
+/// \param poses    file coordinates -> common frame, one a piece; those of the members are changed
+/// \param fixed    members that stay; empty: the first member stays
+void spread_error(const std::vector<Piece>& pieces, const std::vector<std::size_t>& members,
+                  const std::vector<Touching>& contacts, const std::vector<std::size_t>& fixed,
+                  std::vector<Rigid>& poses);
+
+}  // namespace rejoin::assembly

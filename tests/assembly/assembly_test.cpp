@@ -1,0 +1,293 @@
+/// Broken balls with known poses, and joins that are true, false or unsure.
+#include "assembly/assembly.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "../mesh/shapes.hpp"
+#include "core/parallel.hpp"
+#include "shatter/shatter.hpp"
+
+namespace rejoin::assembly {
+namespace {
+
+constexpr double kDegree = 0.017453292519943295;
+
+/// The pieces of one or more balls; made once for all tests.
+struct Box {
+  std::vector<match::Fragment> fragments;
+  std::vector<Rigid> to_world;
+  std::vector<shatter::Contact> contacts;
+
+  void add_ball(float radius, std::uint64_t seed, int pieces) {
+    shatter::Options options;
+    options.pieces = pieces;
+    options.seed = seed;
+    options.spacing = 0.03;
+    options.roughness = 2.0;
+    options.chips = 0.0;
+    const shatter::Shattered ball =
+        shatter::shatter("ball", mesh::test::icosphere(radius, 4), options, Context());
+    const std::size_t first = fragments.size();
+    for (const shatter::Piece& piece : ball.pieces) {
+      fragments.push_back(match::prepare("piece", piece.scan, Context()));
+      to_world.push_back(piece.to_world);
+    }
+    for (const shatter::Contact& c : ball.contacts) contacts.push_back({first + c.a, first + c.b, c.area});
+  }
+
+  Rigid truth(std::size_t a, std::size_t b) const { return inverse(to_world[a]) * to_world[b]; }
+
+  Link true_link(std::size_t a, std::size_t b, double score) const { return {a, b, truth(a, b), score}; }
+
+  std::vector<Link> all_true(double score) const {
+    std::vector<Link> links;
+    links.reserve(contacts.size());
+    for (const shatter::Contact& c : contacts) links.push_back(true_link(c.a, c.b, score));
+    return links;
+  }
+
+  /// b turned and shifted against where it belongs, in a's axes about the middle of b.
+  Link false_link(std::size_t a, std::size_t b, double score, double turn_deg, double shift) const {
+    const glm::dvec3 centre = mesh::centroid(fragments[b].surface) + fragments[b].surface.origin;
+    const glm::dvec3 at = truth(a, b)(centre);
+    const glm::dmat3 turn = axis_rotation(glm::normalize(glm::dvec3(1, 2, 3)), turn_deg * kDegree);
+    const glm::dvec3 push = shift * fragments[b].diameter * glm::normalize(glm::dvec3(3, -1, 1));
+    return {a, b, Rigid{turn, at + push - turn * at} * truth(a, b), score};
+  }
+
+  /// b's middle put on a's.
+  Link inside_link(std::size_t a, std::size_t b, double score) const {
+    const auto middle = [&](std::size_t k) {
+      return mesh::centroid(fragments[k].surface) + fragments[k].surface.origin;
+    };
+    return {a, b, Rigid{glm::dmat3(1.0), middle(a) - middle(b)}, score};
+  }
+
+  /// Largest angle, degrees, by which two pieces of a group lie wrong to each other.
+  double worst_turn(const Result& result) const {
+    double worst = 0.0;
+    for (std::size_t a = 0; a < fragments.size(); ++a) {
+      for (std::size_t b = a + 1; b < fragments.size(); ++b) {
+        const Placement& x = result.placements[a];
+        const Placement& y = result.placements[b];
+        if (x.group < 0 || x.group != y.group) continue;
+        worst = std::max(worst, angle_between(inverse(x.pose) * y.pose, truth(a, b)) / kDegree);
+      }
+    }
+    return worst;
+  }
+};
+
+const Box& ball() {
+  static const Box box = [] {
+    Box made;
+    made.add_ball(10.0F, 3, 5);
+    return made;
+  }();
+  return box;
+}
+
+const Box& two_balls() {
+  static const Box box = [] {
+    Box made = ball();
+    made.add_ball(7.0F, 8, 3);
+    return made;
+  }();
+  return box;
+}
+
+Result run(const Box& box, const std::vector<Link>& links, const Options& options = {}) {
+  return assemble(box.fragments, links, options, Context());
+}
+
+std::set<int> groups_of(const Result& result) {
+  std::set<int> groups;
+  for (const Placement& p : result.placements) groups.insert(p.group);
+  return groups;
+}
+
+/// Two pieces that touch, and a third that touches both.
+struct Corner {
+  std::size_t a, b, c;
+};
+
+Corner corner_of(const Box& box) {
+  const auto touch = [&](std::size_t x, std::size_t y) {
+    return std::any_of(box.contacts.begin(), box.contacts.end(),
+                       [&](const auto& c) { return c.a == std::min(x, y) && c.b == std::max(x, y); });
+  };
+  for (const auto& contact : box.contacts) {
+    for (std::size_t c = 0; c < box.fragments.size(); ++c) {
+      if (c != contact.a && c != contact.b && touch(contact.a, c) && touch(contact.b, c)) {
+        return {contact.a, contact.b, c};
+      }
+    }
+  }
+  return {0, 0, 0};
+}
+
+TEST(Assemble, TrueJoinsPutEveryPieceWhereItBelongs) {
+  const Result result = run(ball(), ball().all_true(0.99));
+  EXPECT_EQ(groups_of(result), std::set<int>{0});
+  EXPECT_LT(ball().worst_turn(result),
+            0.5);  // the alignment may move pieces by a fraction of the grid's spacing
+  EXPECT_GE(result.joins.size(), ball().fragments.size() - 1);
+  for (const Placement& p : result.placements) EXPECT_GT(p.confidence, 0.98);
+}
+
+TEST(Assemble, AJoinThatPutsPiecesIntoEachOtherIsRejectedWithTheReason) {
+  const Corner corner = corner_of(ball());
+  const Result result = run(ball(), {ball().inside_link(corner.a, corner.b, 0.999)});
+  EXPECT_EQ(result.groups, 0);
+  EXPECT_TRUE(result.joins.empty());
+  EXPECT_NE(result.placements[corner.b].reason.find("into each other"), std::string::npos)
+      << result.placements[corner.b].reason;
+  EXPECT_NE(result.placements[corner.c].reason.find("no pose was found"), std::string::npos);
+}
+
+TEST(Assemble, AFalseJoinGivesWayToTheLoopsThatContradictIt) {
+  const Corner corner = corner_of(ball());
+  std::vector<Link> links = ball().all_true(0.98);
+  const std::size_t others = ball().contacts.size() - 1;
+  ASSERT_GE(others, 4U);
+  links.push_back(ball().false_link(corner.a, corner.b, 0.9999, 25.0, 0.3));  // surer than any true one
+  const Result result = run(ball(), links);
+  EXPECT_EQ(groups_of(result), std::set<int>{0});
+  EXPECT_LT(ball().worst_turn(result), 0.5);
+}
+
+TEST(Assemble, AnUnsureJoinIsNotUsedAlone) {
+  const Corner corner = corner_of(ball());
+  const Result result = run(ball(), {ball().true_link(corner.a, corner.b, 0.7)});
+  EXPECT_EQ(result.groups, 0);
+  EXPECT_NE(result.placements[corner.a].reason.find("no join is sure"), std::string::npos);
+}
+
+TEST(Assemble, UnsureJoinsThatCloseALoopAreUsed) {
+  const Corner corner = corner_of(ball());
+  const std::vector<Link> loop{ball().true_link(corner.a, corner.b, 0.7),
+                               ball().true_link(corner.b, corner.c, 0.7),
+                               ball().true_link(corner.c, corner.a, 0.7)};
+  const Result result = run(ball(), loop);
+  EXPECT_EQ(result.groups, 1);
+  for (const std::size_t piece : {corner.a, corner.b, corner.c}) EXPECT_EQ(result.placements[piece].group, 0);
+  EXPECT_LT(ball().worst_turn(result), 0.5);
+}
+
+TEST(Assemble, UnsureJoinsThatCloseNoLoopAreNot) {
+  const Corner corner = corner_of(ball());
+  const std::vector<Link> open{ball().true_link(corner.a, corner.b, 0.7),
+                               ball().false_link(corner.b, corner.c, 0.7, 40.0, 0.3),
+                               ball().false_link(corner.c, corner.a, 0.7, 20.0, 0.2)};
+  EXPECT_EQ(run(ball(), open).groups, 0);
+}
+
+TEST(Assemble, APoseThatOnePairsSearchMissedFollowsFromTwoOthers) {
+  const Corner corner = corner_of(ball());
+  const std::vector<Link> two{ball().true_link(corner.a, corner.b, 0.7),
+                              ball().true_link(corner.b, corner.c, 0.7)};
+  const Result result = run(ball(), two);
+  ASSERT_EQ(result.groups, 1);
+  EXPECT_LT(ball().worst_turn(result), 0.5);
+  EXPECT_EQ(result.joins.size(), 3U);
+  EXPECT_EQ(
+      std::count_if(result.joins.begin(), result.joins.end(), [](const Join& join) { return join.found; }),
+      1);
+}
+
+TEST(Assemble, TwoObjectsStayTwo) {
+  const Result result = run(two_balls(), two_balls().all_true(0.99));
+  EXPECT_EQ(result.groups, 2);
+  for (std::size_t k = 0; k < 8; ++k) EXPECT_EQ(result.placements[k].group, k < 5 ? 0 : 1);
+  for (const Join& join : result.joins) EXPECT_EQ(join.a < 5, join.b < 5);
+}
+
+TEST(Assemble, ContactWithoutACandidateIsListedAsFound) {
+  std::vector<Link> links = ball().all_true(0.99);
+  const auto largest = std::max_element(ball().contacts.begin(), ball().contacts.end(),
+                                        [](const auto& x, const auto& y) { return x.area < y.area; });
+  links.erase(links.begin() + (largest - ball().contacts.begin()));
+  const Result result = run(ball(), links);
+  const auto found = std::find_if(result.joins.begin(), result.joins.end(), [&](const Join& join) {
+    return join.a == largest->a && join.b == largest->b;
+  });
+  ASSERT_NE(found, result.joins.end());
+  EXPECT_TRUE(found->found);
+  EXPECT_GT(found->contact_area, 0.3 * largest->area);  // worn edges and steep places do not count
+}
+
+TEST(Assemble, AlignmentTogetherMendsJoinsThatAreALittleOff) {
+  std::vector<Link> links;
+  for (const auto& c : ball().contacts) links.push_back(ball().false_link(c.a, c.b, 0.99, 1.5, 0.01));
+  EXPECT_LT(ball().worst_turn(run(ball(), links)), 0.75);
+}
+
+TEST(Constraints, PairsThatMustNotJoinStayApart) {
+  const Corner corner = corner_of(ball());
+  Options options;
+  options.constraints.must_not_join = {{corner.a, corner.b}};
+  const Result result = run(ball(), ball().all_true(0.99), options);
+  const bool together = result.placements[corner.a].group >= 0 &&
+                        result.placements[corner.a].group == result.placements[corner.b].group;
+  EXPECT_FALSE(together);
+}
+
+TEST(Constraints, PairsThatMustJoinDoSoHoweverLowTheScore) {
+  const Corner corner = corner_of(ball());
+  Options options;
+  options.constraints.must_join = {{corner.a, corner.b}};
+  const std::vector<Link> weak{ball().inside_link(corner.a, corner.b, 0.02),
+                               ball().true_link(corner.a, corner.b, 0.01)};
+  const Result result = run(ball(), weak, options);
+  EXPECT_EQ(result.groups, 1);  // the better-scored pose overlaps, so the other is taken
+  EXPECT_LT(ball().worst_turn(result), 0.5);
+  EXPECT_TRUE(result.warnings.empty());
+}
+
+TEST(Constraints, AWishThatCannotBeKeptIsSaid) {
+  const Corner corner = corner_of(ball());
+  Options options;
+  options.constraints.must_join = {{corner.a, corner.b}};
+  EXPECT_EQ(run(ball(), {}, options).warnings.size(), 1U);
+}
+
+TEST(Constraints, PinnedPiecesStayWhereTheyAre) {
+  const Corner corner = corner_of(ball());
+  Options options;
+  options.constraints.pinned = {{corner.a, ball().to_world[corner.a]}, {corner.c, ball().to_world[corner.c]}};
+  const Result result = run(ball(), {ball().true_link(corner.a, corner.b, 0.99)}, options);
+  EXPECT_EQ(result.placements[corner.a].pose.translation, ball().to_world[corner.a].translation);
+  EXPECT_EQ(result.placements[corner.c].pose.rotation, ball().to_world[corner.c].rotation);
+  EXPECT_LT(angle_between(result.placements[corner.b].pose, ball().to_world[corner.b]) / kDegree, 0.5);
+  EXPECT_EQ(result.groups, 1);
+}
+
+TEST(Assemble, SameResultForAnyNumberOfThreadsAndOrderOfLinks) {
+  std::vector<Link> links = two_balls().all_true(0.9);
+  for (std::size_t k = 0; k < links.size(); ++k) links[k].score += 0.005 * static_cast<double>(k + 1);
+  const Result many = run(two_balls(), links);
+  std::reverse(links.begin(), links.end());
+  const ThreadLimit one(1);
+  const Result single = run(two_balls(), links);
+  for (std::size_t k = 0; k < 8; ++k) {
+    EXPECT_EQ(many.placements[k].pose.translation, single.placements[k].pose.translation);
+    EXPECT_EQ(many.placements[k].pose.rotation, single.placements[k].pose.rotation);
+  }
+}
+
+TEST(Assemble, NoFragmentsAndNoLinksAreNothing) {
+  EXPECT_TRUE(assemble({}, {}, {}, Context()).placements.empty());
+  EXPECT_EQ(run(ball(), {}).groups, 0);
+}
+
+TEST(Assemble, EndsWhenCancelled) {
+  Context context;
+  context.cancel();
+  EXPECT_TRUE(assemble(ball().fragments, ball().all_true(0.99), {}, context).cancelled);
+}
+
+}  // namespace
+}  // namespace rejoin::assembly
