@@ -1,0 +1,256 @@
+#include "shatter/shatter.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "core/error.hpp"
+#include "core/random.hpp"
+#include "match/gap.hpp"
+#include "shatter/sites.hpp"
+#include "shatter/surface_nets.hpp"
+
+namespace rejoin::shatter {
+namespace {
+
+constexpr std::size_t kSamples = 20000;
+constexpr double kWarpWave = 0.3;         // coarsest bend of a break, share of the diameter
+constexpr double kWarpAmplitude = 0.025;  // at roughness 1
+constexpr double kFar = 8.0;              // spacings
+constexpr double kLeastContact = 20.0;    // squared spacings; less is no joint
+
+/// Where a chip came off: a rough ball.
+struct Chip {
+  glm::dvec3 centre;
+  double radius;
+};
+
+std::uint64_t edge_key(std::uint32_t from, std::uint32_t to) {
+  return (static_cast<std::uint64_t>(from) << 32U) | to;
+}
+
+void require_closed(const std::string& name, const mesh::Mesh& mesh) {
+  std::vector<std::uint64_t> edges;
+  std::vector<std::uint64_t> back;
+  edges.reserve(3 * mesh.faces.size());
+  back.reserve(3 * mesh.faces.size());
+  for (const glm::uvec3& face : mesh.faces) {
+    for (int k = 0; k < 3; ++k) {
+      edges.push_back(edge_key(face[k], face[(k + 1) % 3]));
+      back.push_back(edge_key(face[(k + 1) % 3], face[k]));
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  std::sort(back.begin(), back.end());
+  if (!edges.empty() && edges == back) return;
+  throw InputError(name, "its surface is not closed, so it has no inside to break", "close its holes first");
+}
+
+/// The object, its cells and what was worn off.
+class Breaker {
+ public:
+  Breaker(const std::string& name, const mesh::Mesh& object, const Options& options)
+      : object_(object), options_(options), gap_(object), diameter_(mesh::diameter(object)) {
+    const Noise warp{options.seed, kWarpWave * diameter_, options.roughness * kWarpAmplitude * diameter_,
+                     1.5 * spacing()};
+    const mesh::Samples samples = mesh::sample_surface(object, kSamples);
+    cells_ =
+        choose_cells(samples, object.origin, static_cast<std::size_t>(options.pieces), warp, options.seed);
+    if (cells_.sites.empty())
+      throw InputError(name, fmt::format("no cut into {} pieces was found", options.pieces),
+                       "ask for fewer pieces");
+    wear_ = {options.seed + 77, 0.05 * diameter_, 0.5, 0.01 * diameter_};
+    choose_chips(samples);
+  }
+
+  double diameter() const { return diameter_; }
+  double spacing() const { return options_.spacing * diameter_; }
+
+  /// Below 0 inside piece k.
+  double field(const glm::dvec3& point, std::size_t k) const {
+    const Cells::Walls walls = cells_.walls(point, k);
+    if (walls.nearest > kFar * spacing()) return walls.nearest;  // the object's surface makes no difference
+    const double surface = signed_distance(point);
+    double result = rounded(surface, walls, worn_radius(point));
+    for (const Chip& chip : chips_[k]) {
+      const double distance = glm::distance(point, chip.centre);
+      if (distance > 2.0 * chip.radius + spacing()) {
+        result = std::max(result, chip.radius - distance);
+      } else {
+        result = std::max(result, chip.radius * (1.0 + 0.3 * wear_.value(point)) - distance);
+      }
+    }
+    return result;
+  }
+
+  /// The piece behind a point of piece k's surface if it lies on a break, else -1.
+  int behind(const glm::dvec3& point, std::size_t k) const {
+    const Cells::Walls walls = cells_.walls(point, k);
+    return std::abs(walls.nearest) < std::abs(signed_distance(point)) ? walls.behind : -1;
+  }
+
+  glm::dvec3 middle() const {
+    const mesh::Box box = mesh::bounds(object_);
+    return object_.origin + 0.5 * glm::dvec3(box.low + box.high);
+  }
+
+ private:
+  double signed_distance(const glm::dvec3& point) const {
+    const glm::vec3 at(point - object_.origin);
+    for (double reach = 6.0 * spacing(); reach < 16.0 * diameter_;
+         reach *= 8.0) {  // short searches are quick
+      const auto hit = gap_.at(at, static_cast<float>(reach));
+      if (hit) return static_cast<double>(hit->gap);
+    }
+    return diameter_;
+  }
+
+  double worn_radius(const glm::dvec3& point) const {
+    if (options_.erosion <= 0.0) return 0.0;
+    return options_.erosion * diameter_ * std::clamp(1.0 + wear_.value(point), 0.3, 2.0);
+  }
+
+  /// The three surfaces' common inside with edges and corners rounded to a radius.
+  static double rounded(double surface, const Cells::Walls& walls, double radius) {
+    const double sharp = std::max(surface, walls.nearest);
+    if (!(radius > 0.0)) return sharp;
+    double squares = 0.0;
+    for (const double distance : {surface, walls.nearest, walls.second}) {
+      const double over = std::max(0.0, radius + distance);
+      squares += over * over;
+    }
+    return std::min(sharp, -radius) + std::sqrt(squares);
+  }
+
+  /// Chips come off where a break meets the object's surface.
+  void choose_chips(const mesh::Samples& samples) {
+    std::vector<std::vector<glm::dvec3>> rims(cells_.sites.size());
+    for (const glm::vec3& sample : samples.points) {
+      const glm::dvec3 point = object_.origin + glm::dvec3(sample);
+      const std::size_t cell = cells_.cell_of(cells_.bent(point));
+      if (cells_.walls(point, cell).nearest > -2.0 * samples.spacing) rims[cell].push_back(point);
+    }
+    Random random(options_.seed, 12);
+    chips_.resize(cells_.sites.size());
+    for (std::size_t k = 0; k < rims.size(); ++k) {
+      const auto count = static_cast<int>(std::floor(random.uniform(0.0, 2.0 * options_.chips) + 0.5));
+      for (int c = 0; c < count && !rims[k].empty(); ++c) {
+        const glm::dvec3 at = rims[k][random.below(static_cast<std::uint32_t>(rims[k].size()))];
+        chips_[k].push_back({at, options_.chip_size * diameter_ * random.uniform(0.3, 1.0)});
+      }
+    }
+  }
+
+  const mesh::Mesh& object_;
+  const Options& options_;
+  match::GapField gap_;
+  double diameter_;
+  Cells cells_;
+  Noise wear_;
+  std::vector<std::vector<Chip>> chips_;  ///< one list a piece
+};
+
+glm::dmat3 random_rotation(Random& random) {
+  glm::dvec3 axis(random.normal(), random.normal(), random.normal());
+  const double length = glm::length(axis);
+  axis = length > 1e-9 ? axis / length : glm::dvec3(0, 0, 1);
+  const glm::dmat3 tilt = rotation_between({0, 0, 1}, axis);
+  return tilt * axis_rotation({0, 0, 1}, random.uniform(0.0, 6.283185307179586));
+}
+
+std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t v) {
+  while (parent[v] != v) {
+    parent[v] = parent[parent[v]];
+    v = parent[v];
+  }
+  return v;
+}
+
+/// The connected part with the most faces.
+mesh::Mesh largest_part(const mesh::Mesh& mesh) {
+  std::vector<std::uint32_t> parent(mesh.vertices.size());
+  std::iota(parent.begin(), parent.end(), 0U);
+  for (const glm::uvec3& face : mesh.faces) {
+    for (int k = 0; k < 2; ++k) {
+      const std::uint32_t a = root_of(parent, face[k]);
+      const std::uint32_t b = root_of(parent, face[k + 1]);
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  std::map<std::uint32_t, std::size_t> faces_of;
+  for (const glm::uvec3& face : mesh.faces) ++faces_of[root_of(parent, face.x)];
+  const auto largest = std::max_element(faces_of.begin(), faces_of.end(),
+                                        [](const auto& a, const auto& b) { return a.second < b.second; });
+  std::vector<std::uint32_t> kept;
+  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+    if (root_of(parent, mesh.faces[f].x) == largest->first) kept.push_back(f);
+  }
+  return mesh::submesh(mesh, kept);
+}
+
+/// Area of the breaks towards every other piece, still in the object's frame.
+void add_contacts(const Breaker& breaker, const mesh::Mesh& piece, std::size_t k,
+                  std::map<std::pair<std::size_t, std::size_t>, double>& areas) {
+  for (const glm::uvec3& face : piece.faces) {
+    const glm::dvec3 a(piece.vertices[face.x]);
+    const glm::dvec3 b(piece.vertices[face.y]);
+    const glm::dvec3 c(piece.vertices[face.z]);
+    const int other = breaker.behind(piece.origin + (a + b + c) / 3.0, k);
+    if (other < 0) continue;
+    const auto neighbour = static_cast<std::size_t>(other);
+    areas[{std::min(k, neighbour), std::max(k, neighbour)}] +=
+        0.25 * glm::length(glm::cross(b - a, c - a));  // half from each side
+  }
+}
+
+/// Moves a piece to a pose of its own and adds the scanner's noise.
+Piece scanned(mesh::Mesh piece, double noise, double reach, Random& random) {
+  mesh::compute_normals(piece);
+  Rigid away{random_rotation(random), {}};
+  for (int k = 0; k < 3; ++k) away.translation[k] = random.uniform(-reach, reach);
+  const glm::dvec3 origin = away(piece.origin);
+  for (std::size_t v = 0; v < piece.vertices.size(); ++v) {
+    const glm::dvec3 shifted =
+        glm::dvec3(piece.vertices[v]) + noise * random.normal() * glm::dvec3(piece.normals[v]);
+    piece.vertices[v] = glm::vec3(origin + away.rotation * shifted);
+  }
+  piece.origin = glm::dvec3(0.0);
+  piece.normals.clear();
+  return {std::move(piece), inverse(away)};
+}
+
+}  // namespace
+
+Shattered shatter(const std::string& name, const mesh::Mesh& object, const Options& options,
+                  const Context& context) {
+  require_closed(name, object);
+  context.report("shatter", 0.0);
+  const Breaker breaker(name, object, options);
+  Shattered result;
+  result.diameter = breaker.diameter();
+  std::map<std::pair<std::size_t, std::size_t>, double> areas;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(options.pieces); ++k) {
+    Random random(options.seed, 1000 + k);
+    const Grid grid{random_rotation(random), breaker.middle(), 1.1 * breaker.diameter(), breaker.spacing()};
+    const Field field = [&breaker, k](const glm::dvec3& point) { return breaker.field(point, k); };
+    const mesh::Mesh whole = surface_nets(field, grid, context);
+    if (context.cancelled()) return {{}, {}, 0.0, true};
+    if (whole.faces.empty())
+      throw InputError(name, fmt::format("piece {} is smaller than the grid", k),
+                       "ask for fewer pieces or a finer grid");
+    const mesh::Mesh piece = largest_part(whole);
+    add_contacts(breaker, piece, k, areas);
+    result.pieces.push_back(scanned(piece, options.noise * breaker.diameter(), breaker.diameter(), random));
+    context.report("shatter", static_cast<double>(k + 1) / options.pieces);
+  }
+  const double least = kLeastContact * breaker.spacing() * breaker.spacing();
+  for (const auto& [pair, area] : areas) {
+    if (area >= least) result.contacts.push_back({pair.first, pair.second, area});
+  }
+  return result;
+}
+
+}  // namespace rejoin::shatter

@@ -1,0 +1,115 @@
+/// A broken ball: what its pieces must add up to.
+#include "shatter/shatter.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../mesh/shapes.hpp"
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+
+namespace rejoin::shatter {
+namespace {
+
+constexpr double kRadius = 10.0;
+constexpr double kBallVolume = 4.0 / 3.0 * 3.14159265358979 * kRadius * kRadius * kRadius;
+
+/// Quick: a coarse grid.
+Options coarse(int pieces) {
+  Options options;
+  options.pieces = pieces;
+  options.spacing = 0.04;
+  options.erosion = 0.0;
+  options.noise = 0.0;
+  options.chips = 0.0;
+  return options;
+}
+
+Shattered broken_ball(const Options& options) {
+  return shatter("ball", mesh::test::icosphere(static_cast<float>(kRadius), 4), options, Context());
+}
+
+double volume_of(const Shattered& shattered) {
+  double sum = 0.0;
+  for (const Piece& piece : shattered.pieces) sum += mesh::test::volume(piece.scan);
+  return sum;
+}
+
+TEST(Shatter, EveryPieceIsClosedAndTurnedOutwards) {
+  for (const Piece& piece : broken_ball(coarse(4)).pieces) {
+    const mesh::test::Edges edges = mesh::test::count_edges(piece.scan);
+    EXPECT_EQ(edges.open, 0U);
+    EXPECT_GT(mesh::test::volume(piece.scan), 0.0);
+  }
+}
+
+TEST(Shatter, PiecesWithoutWearFillTheObject) {
+  // A net's corners lie on the surface, its faces inside it, and it rounds the edges of the breaks to a cell.
+  EXPECT_NEAR(volume_of(broken_ball(coarse(4))) / kBallVolume, 1.0, 0.04);
+}
+
+TEST(Shatter, WearAndChipsTakeVolumeAway) {
+  Options worn = coarse(4);
+  worn.erosion = 0.03;
+  Options chipped = coarse(4);
+  chipped.chips = 30.0;
+  chipped.chip_size = 0.1;
+  const double whole = volume_of(broken_ball(coarse(4)));
+  EXPECT_LT(volume_of(broken_ball(worn)), 0.995 * whole);
+  EXPECT_LT(volume_of(broken_ball(chipped)), 0.995 * whole);
+}
+
+TEST(Shatter, TruthPutsEveryPieceBackIntoTheBall) {
+  for (const Piece& piece : broken_ball(coarse(5)).pieces) {
+    double farthest = 0.0;
+    for (const glm::vec3& vertex : piece.scan.vertices)
+      farthest = std::max(farthest, glm::length(piece.to_world(piece.scan.origin + glm::dvec3(vertex))));
+    EXPECT_LT(farthest, 1.005 * kRadius);
+    EXPECT_GT(farthest, 0.98 * kRadius);  // sites lie on the surface, so every piece has some of it
+    EXPECT_NEAR(glm::determinant(piece.to_world.rotation), 1.0, 1e-9);
+  }
+}
+
+TEST(Shatter, APlaneCutHasItsAreaAndARoughOneMore) {
+  Options plane = coarse(2);
+  plane.roughness = 0.0;
+  const Shattered flat = broken_ball(plane);
+  plane.roughness = 3.0;
+  const Shattered rough = broken_ball(plane);
+  ASSERT_EQ(flat.contacts.size(), 1U);
+  ASSERT_EQ(rough.contacts.size(), 1U);
+  EXPECT_EQ(flat.contacts[0].a, 0U);
+  EXPECT_EQ(flat.contacts[0].b, 1U);
+  // The bisector of two points of the ball's surface goes through its centre: a great circle's disc.
+  EXPECT_NEAR(flat.contacts[0].area / (3.14159265 * kRadius * kRadius), 1.0, 0.06);
+  EXPECT_GT(rough.contacts[0].area, 1.02 * flat.contacts[0].area);
+}
+
+TEST(Shatter, SameSeedSamePiecesForAnyNumberOfThreads) {
+  Options options = coarse(3);
+  options.noise = 0.001;
+  const Shattered many = broken_ball(options);
+  const ThreadLimit one(1);
+  const Shattered single = broken_ball(options);
+  options.seed = 2;
+  const Shattered other = broken_ball(options);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(many.pieces[k].scan.vertices, single.pieces[k].scan.vertices);
+    EXPECT_EQ(many.pieces[k].scan.faces, single.pieces[k].scan.faces);
+    EXPECT_NE(many.pieces[k].scan.vertices, other.pieces[k].scan.vertices);
+  }
+}
+
+TEST(Shatter, AnOpenSurfaceIsRefused) {
+  mesh::Mesh open = mesh::test::icosphere(1.0F, 2);
+  open.faces.pop_back();
+  EXPECT_THROW(shatter("open", open, coarse(2), Context()), InputError);
+}
+
+TEST(Shatter, EndsWhenCancelled) {
+  Context context;
+  context.cancel();
+  EXPECT_TRUE(shatter("ball", mesh::test::icosphere(1.0F, 3), coarse(2), context).cancelled);
+}
+
+}  // namespace
+}  // namespace rejoin::shatter
