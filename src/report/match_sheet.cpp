@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "report/colour_scale.hpp"
+#include "report/joint_panels.hpp"
 #include "report/section.hpp"
 #include "report/views.hpp"
 
@@ -22,7 +23,6 @@ constexpr int kUpperHeight = 540;
 constexpr int kLower = kUpper + kUpperHeight + kGutter;
 constexpr int kLowerHeight = kHeight - kLower - kMargin;
 constexpr int kCaption = 34;  ///< at the top of each panel
-constexpr double kFov = 18;   ///< degrees, of the shaded views
 
 void frame(Image& sheet, const Area& area, const std::string& caption) {
   outline(sheet, area, {214, 216, 220});
@@ -34,25 +34,10 @@ Area inside(const Area& area) {
   return {area.x + 1, area.y + kCaption, area.width - 2, area.height - kCaption - 1};
 }
 
-Image shaded(const Scene& scene, const std::vector<Body>& bodies, const glm::dvec3& back,
-             const glm::dvec3& up, const Area& area) {
-  RenderOptions options;
-  options.width = area.width;
-  options.height = area.height;
-  options.ambient_rays = 4;
-  const double aspect = static_cast<double>(area.width) / area.height;
-  return scene.render(fit_camera(bodies, back, up, aspect, kFov), options);
-}
-
 void put(Image& sheet, const Area& area, const std::string& caption, const Image& picture) {
   const Area inner = inside(area);
   paste(sheet, picture, inner.x, inner.y);
   frame(sheet, area, caption);
-}
-
-/// Seen a little from above, so that the pieces look solid.
-glm::dvec3 raised(const glm::dvec3& back, const glm::dvec3& up) {
-  return glm::normalize(back + 0.35 * up);
 }
 
 void draw_upper_row(Image& sheet, const Joint& joint) {
@@ -60,10 +45,8 @@ void draw_upper_row(Image& sheet, const Joint& joint) {
   const Scene scene(joined);
   const JointViews views = choose_views(joint, scene);
   const Area apart{kMargin, kUpper, 680, kUpperHeight};
-  const glm::dvec3 up = up_for(joint, views.across);
-  const std::vector<Body> opened = opened_bodies(joint, views.across);
   put(sheet, apart, "Apart: A left, B right, broken faces turned to the eye",
-      shaded(Scene(opened), opened, raised(views.across, up), up, inside(apart)));
+      apart_panel(joint, views, {inside(apart).width, inside(apart).height}));
   struct View {
     const char* caption;
     glm::dvec3 back;
@@ -78,76 +61,20 @@ void draw_upper_row(Image& sheet, const Joint& joint) {
        {"Joined: across the seam", views.across, {right, kUpper, width, half}},
        {"Joined: along the seam", views.along, {right, kUpper + half + kGutter, width, half}}}};
   for (const View& view : shown) {
+    const Area inner = inside(view.area);
     put(sheet, view.area, view.caption,
-        shaded(scene, joined, view.back, up_for(joint, view.back), inside(view.area)));
+        shaded_panel(scene, joined, {view.back, up_for(joint, view.back)}, {inner.width, inner.height}));
   }
-}
-
-/// Where the two broken faces go: one above the other, or side by side.
-struct Book {
-  bool stacked = false;
-  Area a;
-  Area b;
-
-  /// Pixels a mesh unit at which a contact of that length and width fits into one page.
-  double scale(const Joint& joint) const {
-    const double wide = stacked ? joint.length : joint.width;
-    const double high = stacked ? joint.width : joint.length;
-    return std::min(a.width / std::max(wide, 1e-30), a.height / std::max(high, 1e-30));
-  }
-};
-
-Book open_book(const Joint& joint, const Area& area) {
-  Book stacked{true, area, area};
-  stacked.a.height = stacked.b.height = area.height / 2;
-  stacked.b.y += area.height / 2;
-  Book beside{false, area, area};
-  beside.a.width = beside.b.width = area.width / 2;
-  beside.b.x += area.width / 2;
-  return stacked.scale(joint) >= beside.scale(joint) ? stacked : beside;
-}
-
-/// An orthographic camera that looks at the contact, or at the whole fragment where there is none.
-Camera page_camera(const Joint& joint, const Body& body, const Book& book, const glm::dvec3& back,
-                   const glm::dvec3& right) {
-  constexpr double kRoom = 1.12;
-  const Area& page = book.a;
-  const glm::dvec3 up = glm::cross(back, right);
-  if (joint.contact.area <= 0)
-    return fit_camera({body}, back, up, static_cast<double>(page.width) / page.height);
-  Camera camera;
-  camera.target = joint.centre;
-  camera.right = right;
-  camera.up = up;
-  camera.half_height = kRoom / 2 * page.height / book.scale(joint);
-  return camera;
-}
-
-Image gap_view(const Joint& joint, const Book& book, bool of_a) {
-  Body body = joined_bodies(joint)[of_a ? 0 : 1];
-  body.vertex_colours = gap_colours(of_a ? joint.gap_a : joint.gap_b, joint.scale);
-  RenderOptions options;
-  options.width = book.a.width;
-  options.height = book.a.height;
-  options.ambient_rays = 0;
-  options.relief = 0.35;  // enough to see the relief, little enough to read the colours
-  const glm::dvec3 back = of_a ? joint.normal : -joint.normal;
-  const glm::dvec3 right = book.stacked ? joint.along : of_a ? joint.across : -joint.across;
-  return Scene({body}).render(page_camera(joint, body, book, back, right), options);
 }
 
 /// Both broken faces face on, opened like a book: what touches lies mirrored about the fold.
 void draw_gap_views(Image& sheet, const Joint& joint, const Area& area) {
-  const Book book = open_book(joint, inside(area));
-  paste(sheet, gap_view(joint, book, true), book.a.x, book.a.y);
-  paste(sheet, gap_view(joint, book, false), book.b.x, book.b.y);
-  frame(sheet, area, "Broken faces by gap, opened like a book");
-  const int width = book.stacked ? book.b.width - 16 : 1;
-  const int height = book.stacked ? 1 : book.b.height - 16;
-  fill(sheet, {book.b.x + (book.stacked ? 8 : 0), book.b.y + (book.stacked ? 0 : 8), width, height},
-       {150, 152, 158});
-  draw_text(sheet, book.a.x + 12, book.a.y + 22, "A", {14, kInk, Align::Left, true});
-  draw_text(sheet, book.b.x + 12, book.b.y + 22, "B", {14, kInk, Align::Left, true});
+  const Area inner = inside(area);
+  const Book book = open_book(joint, inner.width, inner.height);
+  put(sheet, area, "Broken faces by gap, opened like a book", book_panel(joint, book));
+  for (const auto& [page, name] : {std::pair{book.a, "A"}, std::pair{book.b, "B"}}) {
+    draw_text(sheet, inner.x + page.x + 12, inner.y + page.y + 22, name, {14, kInk, Align::Left, true});
+  }
 }
 
 /// Share of the contact's vertices in each of `count` equal classes from -scale to scale; larger gaps count
@@ -249,13 +176,6 @@ void draw_header(Image& sheet, const Joint& joint, const SheetLabels& labels) {
 }
 
 }  // namespace
-
-std::vector<Colour> gap_colours(const std::vector<float>& gaps, double scale) {
-  std::vector<Colour> result(gaps.size());
-  std::transform(gaps.begin(), gaps.end(), result.begin(),
-                 [&](float gap) { return gap_colour(gap / scale); });
-  return result;
-}
 
 Image draw_match_sheet(const Joint& joint, const SheetLabels& labels) {
   Image sheet(kWidth, kHeight, kPaper);

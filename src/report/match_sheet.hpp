@@ -24,8 +24,4 @@ struct SheetLabels {
 /// occurs, a cut through the joint.
 Image draw_match_sheet(const Joint& joint, const SheetLabels& labels);
 
-/// The colours of the gaps of one fragment's vertices; grey where there is no contact.
-/// \param scale  |gap| of the strongest colours, mesh units
-std::vector<Colour> gap_colours(const std::vector<float>& gaps, double scale);
-
 }  // namespace rejoin::report

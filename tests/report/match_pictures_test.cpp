@@ -8,10 +8,12 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "mesh/load.hpp"
 #include "planted.hpp"
 #include "report/colour_scale.hpp"
 #include "report/joint.hpp"
+#include "report/joint_panels.hpp"
 #include "report/match_sheet.hpp"
 #include "report/section.hpp"
 

@@ -1,0 +1,123 @@
+#include "report/detail/page_json.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/version.hpp"
+
+namespace rejoin::report::detail {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Column major, as WebGL has it.
+ordered_json columns(const Rigid& pose) {
+  ordered_json list = ordered_json::array();
+  for (int column = 0; column < 3; ++column) {
+    for (int row = 0; row < 3; ++row) list.push_back(pose.rotation[column][row]);
+    list.push_back(0.0);
+  }
+  for (int row = 0; row < 3; ++row) list.push_back(pose.translation[row]);
+  list.push_back(1.0);
+  return list;
+}
+
+ordered_json mesh_json(const PackedMesh& mesh) {
+  if (mesh.vertices == 0) return nullptr;
+  return {{"vertices", mesh.vertices},
+          {"faces", mesh.faces},
+          {"low", {mesh.low.x, mesh.low.y, mesh.low.z}},
+          {"step", mesh.step},
+          {"vertex", base64(mesh.vertex_stream)},
+          {"colour", base64(mesh.colour_stream)},
+          {"index", base64(mesh.index_stream)}};
+}
+
+ordered_json fragment_json(const ReportFragment& fragment, const PackedMesh& mesh) {
+  return {{"name", fragment.name},
+          {"path", fragment.path},
+          {"faces", fragment.faces},
+          {"diameter", fragment.diameter},
+          {"group", fragment.pose ? ordered_json(fragment.group) : ordered_json()},
+          {"confidence", fragment.confidence},
+          {"reason", fragment.reason},
+          {"pose", fragment.pose ? columns(*fragment.pose) : ordered_json()},
+          {"mesh", mesh_json(mesh)}};
+}
+
+ordered_json pictures_json(const std::vector<ReportPicture>& pictures) {
+  ordered_json list = ordered_json::array();
+  for (const ReportPicture& picture : pictures) {
+    list.push_back({{"title", picture.title},
+                    {"width", picture.width},
+                    {"height", picture.height},
+                    {"jpeg", base64(picture.jpeg)}});
+  }
+  return list;
+}
+
+ordered_json pair_json(const ReportPair& pair, const std::vector<ReportPicture>& pictures) {
+  ordered_json figures = ordered_json::array();
+  for (const ReportFigure& figure : pair.figures) figures.push_back({figure.name, figure.value});
+  return {{"a", pair.a},
+          {"b", pair.b},
+          {"score", pair.score},
+          {"verdict", pair.verdict},
+          {"used", pair.used},
+          {"figures", figures},
+          {"pictures", pictures_json(pictures)}};
+}
+
+/// "<" only occurs inside of JSON's strings, where it may be written so.
+std::string without_less_than(const std::string& json) {
+  std::string text;
+  text.reserve(json.size());
+  for (const char c : json) {
+    if (c == '<') {
+      text += "\\u003c";
+    } else {
+      text += c;
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> score_triangle(const RunReport& report) {
+  constexpr std::uint8_t kNotCompared = 255;
+  const std::size_t n = report.fragments.size();
+  std::vector<std::uint8_t> scores(n < 2 ? 0 : n * (n - 1) / 2, kNotCompared);
+  for (const ReportPair& pair : report.pairs) {
+    const std::size_t row = std::min(pair.a, pair.b);
+    const std::size_t column = std::max(pair.a, pair.b);
+    scores[row * (2 * n - row - 1) / 2 + column - row - 1] =
+        static_cast<std::uint8_t>(std::lround(254.0 * std::clamp(pair.score, 0.0, 1.0)));
+  }
+  return scores;
+}
+
+std::string page_json(const PageData& data) {
+  const RunReport& report = *data.report;
+  ordered_json fragments = ordered_json::array();
+  for (std::size_t k = 0; k < report.fragments.size(); ++k)
+    fragments.push_back(fragment_json(report.fragments[k], data.meshes[k]));
+  ordered_json pairs = ordered_json::array();
+  for (const std::size_t k : data.listed) pairs.push_back(pair_json(report.pairs[k], data.pictures[k]));
+  ordered_json parameters = ordered_json::array();
+  for (const auto& [name, value] : report.parameters) parameters.push_back({name, value});
+  const ordered_json json = {{"schema", "rejoin.report/1"},
+                             {"version", kVersion},
+                             {"title", report.title},
+                             {"fragments", fragments},
+                             {"gap_scale", data.gap_scale},
+                             {"compared", report.pairs.size()},
+                             {"pairs", pairs},
+                             {"scores", base64(score_triangle(report))},
+                             {"parameters", parameters},
+                             {"warnings", report.warnings}};
+  return without_less_than(json.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
+}
+
+}  // namespace rejoin::report::detail

@@ -1,0 +1,140 @@
+// Scores of all pairs as a picture; the pointer or the arrow keys tell which is which.
+import {css, evenColour, gradient} from './colours.js';
+import {h, nameElement, replace, shortened, tidy} from './dom.js';
+import {bytesOf} from './numbers.js';
+
+const NOT_COMPARED = 255;
+const LABELLED = 48; // fragments that still get their names written beside
+
+export class Matrix {
+  /** @param pick (pair or null, indices) a cell was chosen */
+  constructor(data, pick) {
+    Object.assign(this, {data, pick});
+    this.count = data.fragments.length;
+    this.scores = bytesOf(data.scores);
+    this.order = [...data.fragments.keys()].sort((a, b) => this.#rank(a) - this.#rank(b) || a - b);
+    this.cursor = [0, Math.min(1, this.count - 1)];
+    this.canvas = h('canvas', {
+      tabindex: 0,
+      role: 'application',
+      'aria-label': 'Matrix of pair scores. Arrow keys move, Enter opens the pair.',
+      onkeydown: (event) => this.#key(event),
+      onpointermove: (event) => this.#point(event),
+      onclick: (event) => this.#point(event) && this.#choose(),
+      onfocus: () => this.draw(),
+      onblur: () => this.draw(),
+    });
+    this.readout = h('p', {class: 'readout', 'aria-live': 'polite'}, 'Point at a cell, or move with the arrow keys.');
+    const scale = h(
+      'div',
+      {class: 'legend'},
+      h('span', {class: 'scale'}, h('span', {class: 'bar', style: {background: gradient(evenColour, 0, 1)}}), h('span', {class: 'ends'}, h('span', {}, '0'), h('span', {}, 'score'), h('span', {}, '1'))),
+    );
+    this.element = h('section', {id: 'matrix', 'aria-labelledby': 'matrix-title'}, h('h2', {id: 'matrix-title'}, 'All pairs'), h('p', {class: 'note'}, 'Fragments of one object stand together; a frame marks the joins that the assembly uses.'), h('div', {class: 'matrix'}, this.canvas), scale, this.readout);
+    new ResizeObserver(() => this.draw()).observe(this.element);
+  }
+
+  /** Place in the order: objects first, loose pieces last. */
+  #rank(index) {
+    return this.data.fragments[index].group ?? Infinity;
+  }
+
+  score(i, j) {
+    const row = Math.min(i, j);
+    const byte = this.scores[(row * (2 * this.count - row - 1)) / 2 + Math.max(i, j) - row - 1];
+    return byte === NOT_COMPARED ? null : byte / 254;
+  }
+
+  draw() {
+    const style = getComputedStyle(this.element);
+    const room = this.canvas.parentElement.clientWidth;
+    const labelled = this.count <= LABELLED && room > 520;
+    this.margin = labelled ? 132 : 0;
+    this.cell = Math.max(3, Math.min(28, Math.floor((Math.min(room, 1100) - this.margin) / Math.max(1, this.count))));
+    const side = this.margin + this.cell * this.count;
+    const ratio = Math.min(window.devicePixelRatio || 1, 2);
+    Object.assign(this.canvas, {width: side * ratio, height: side * ratio});
+    this.canvas.style.width = this.canvas.style.height = `${side}px`;
+    const context = this.canvas.getContext('2d');
+    context.scale(ratio, ratio);
+    this.#cells(context, style);
+    if (labelled) this.#labels(context, style);
+    if (document.activeElement === this.canvas) this.#frame(context, ...this.cursor, style.getPropertyValue('--accent'), 3);
+  }
+
+  #cells(context, style) {
+    const gap = this.cell > 6 ? 1 : 0;
+    const used = new Set(this.data.pairs.filter((pair) => pair.used).flatMap(({a, b}) => [`${a},${b}`, `${b},${a}`]));
+    for (let row = 0; row < this.count; ++row) {
+      for (let column = 0; column < this.count; ++column) {
+        const [i, j] = [this.order[row], this.order[column]];
+        const score = i === j ? null : this.score(i, j);
+        context.fillStyle = score === null ? style.getPropertyValue(i === j ? '--line' : '--faint') : css(evenColour(score));
+        context.fillRect(this.margin + column * this.cell, this.margin + row * this.cell, this.cell - gap, this.cell - gap);
+        if (used.has(`${i},${j}`)) this.#frame(context, row, column, style.getPropertyValue('--ink'), this.cell > 8 ? 2 : 1);
+      }
+    }
+  }
+
+  #frame(context, row, column, colour, width) {
+    context.strokeStyle = colour;
+    context.lineWidth = width;
+    context.strokeRect(this.margin + column * this.cell + width / 2 - 0.5, this.margin + row * this.cell + width / 2 - 0.5, this.cell - width, this.cell - width);
+  }
+
+  #labels(context, style) {
+    context.fillStyle = style.getPropertyValue('--ink');
+    context.font = `${Math.min(13, this.cell - 2)}px system-ui, sans-serif`;
+    context.textBaseline = 'middle';
+    this.order.forEach((index, k) => {
+      const text = shortened(tidy(this.data.fragments[index].name), 18);
+      const at = this.margin + (k + 0.5) * this.cell;
+      context.textAlign = 'right';
+      context.fillText(text, this.margin - 8, at, this.margin - 10);
+      context.save();
+      context.translate(at, this.margin - 8);
+      context.rotate(-Math.PI / 2);
+      context.textAlign = 'left';
+      context.fillText(text, 0, 0, this.margin - 10);
+      context.restore();
+    });
+  }
+
+  #point(event) {
+    const box = this.canvas.getBoundingClientRect();
+    const column = Math.floor((event.clientX - box.left - this.margin) / this.cell);
+    const row = Math.floor((event.clientY - box.top - this.margin) / this.cell);
+    if (row < 0 || column < 0 || row >= this.count || column >= this.count) return false;
+    this.cursor = [row, column];
+    this.#tell();
+    return true;
+  }
+
+  #key(event) {
+    const step = {ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowUp: [-1, 0], ArrowDown: [1, 0]}[event.key];
+    if (step) this.cursor = this.cursor.map((at, k) => Math.min(Math.max(at + step[k], 0), this.count - 1));
+    else if (event.key === 'Enter') this.#choose();
+    else return;
+    event.preventDefault();
+    this.draw();
+    this.#tell();
+  }
+
+  #chosen() {
+    return this.cursor.map((at) => this.order[at]);
+  }
+
+  #tell() {
+    const [i, j] = this.#chosen();
+    const name = (index) => nameElement(this.data.fragments[index].name, {limit: 48});
+    if (i === j) return replace(this.readout, name(i));
+    const score = this.score(i, j);
+    replace(this.readout, name(i), ' \u2013 ', name(j), ': ', score === null ? 'not compared' : `score ${score.toFixed(2)}`);
+  }
+
+  #choose() {
+    const [i, j] = this.#chosen();
+    if (i === j) return;
+    this.pick(this.data.pairs.find(({a, b}) => (a === i && b === j) || (a === j && b === i)) ?? null, [i, j]);
+  }
+}
