@@ -82,6 +82,17 @@ bool Running::wait_for_stderr(const std::string& text) {
   return true;
 }
 
+bool Running::wait_for_stdout(const std::string& text) {
+  while (output_.out.find(text) == std::string::npos) {
+    if (!read_some()) return false;
+  }
+  return true;
+}
+
+void Running::kill_now() const {
+  kill(process_, SIGKILL);
+}
+
 void Running::interrupt() const {
   kill(process_, SIGINT);
 }

@@ -27,7 +27,13 @@ class Running {
   /// Reads stderr until it contains `text`; false if the program ended before.
   bool wait_for_stderr(const std::string& text);
 
+  /// The same of stdout.
+  bool wait_for_stdout(const std::string& text);
+
   void interrupt() const;
+
+  /// What a power cut or the system's memory guard does to it.
+  void kill_now() const;
 
   /// Reads the rest and waits for the end.
   Finished finish();

@@ -82,7 +82,8 @@ TEST_P(HelpTest, FitsAScreen) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Commands, HelpTest,
-                         ::testing::Values("", "match", "compare", "facets", "info", "bench"),
+                         ::testing::Values("", "match", "compare", "facets", "assemble", "shatter", "info",
+                                           "bench"),
                          [](const auto& info) { return *info.param ? std::string(info.param) : "Root"; });
 
 TEST(Version, IsTheProjectsVersionOnStdout) {
@@ -94,7 +95,7 @@ TEST(Version, IsTheProjectsVersionOnStdout) {
 TEST(GenerateDocs, WritesAManPageForEveryCommandAndACompletionThatBashReads) {
   const TemporaryFolder folder;
   ASSERT_EQ(run({"generate-docs", folder / "docs"}).exit_code, 0);
-  for (const char* command : {"match", "compare", "facets", "info", "bench"}) {
+  for (const char* command : {"match", "compare", "facets", "assemble", "shatter", "info", "bench"}) {
     const std::string page = read_file(folder / ("docs/rejoin-" + std::string(command) + ".1"));
     EXPECT_NE(page.find(".SH SYNOPSIS"), std::string::npos) << command;
   }

@@ -1,0 +1,100 @@
+#include "cli/assemble_constraints.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <fstream>
+#include <optional>
+
+#include "cli/json_values.hpp"
+#include "core/error.hpp"
+
+namespace rejoin::cli {
+namespace {
+
+using nlohmann::ordered_json;
+using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
+
+constexpr const char* kMend = "see \"Constraints\" in docs/box-of-sherds.md";
+
+class Reader {
+ public:
+  Reader(const std::string& path, const std::vector<std::string>& names) : path_(path), names_(names) {}
+
+  assembly::Constraints read() const {
+    std::ifstream file(path_);
+    if (!file) throw IoError(path_, "cannot be read", "check the path");
+    const ordered_json json = ordered_json::parse(file, nullptr, false);
+    if (json.is_discarded()) throw InputError(path_, "is no JSON", kMend);
+    if (!json.is_object()) fail("is no JSON object");
+    for (const auto& [key, value] : json.items()) {
+      if (key != "must_join" && key != "must_not_join" && key != "poses")
+        fail(fmt::format("knows no \"{}\"", key));
+    }
+    assembly::Constraints constraints;
+    constraints.must_join = pairs(json, "must_join");
+    constraints.must_not_join = pairs(json, "must_not_join");
+    for (const auto& pair : constraints.must_join) {
+      const auto& other = constraints.must_not_join;
+      if (std::find(other.begin(), other.end(), pair) != other.end())
+        fail(fmt::format("says that {} and {} must and must not join", names_[pair.first],
+                         names_[pair.second]));
+    }
+    constraints.pinned = poses(json);
+    return constraints;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& problem) const { throw InputError(path_, problem, kMend); }
+
+  std::size_t number_of(const ordered_json& name, const std::string& place) const {
+    if (!name.is_string()) fail(place + " is no name of a fragment");
+    const auto found = std::find(names_.begin(), names_.end(), name.get<std::string>());
+    if (found == names_.end())
+      fail(fmt::format("{}: there is no fragment \"{}\"", place, name.get<std::string>()));
+    return static_cast<std::size_t>(found - names_.begin());
+  }
+
+  Pairs pairs(const ordered_json& json, const std::string& key) const {
+    Pairs result;
+    if (!json.contains(key)) return result;
+    if (!json[key].is_array()) fail(fmt::format("\"{}\" is no list of pairs", key));
+    for (std::size_t k = 0; k < json[key].size(); ++k) {
+      const ordered_json& pair = json[key][k];
+      const std::string place = fmt::format("\"{}\"[{}]", key, k);
+      if (!pair.is_array() || pair.size() != 2) fail(place + " is no pair of names");
+      const std::size_t a = number_of(pair[0], place);
+      const std::size_t b = number_of(pair[1], place);
+      if (a == b) fail(place + " names the same fragment twice");
+      result.emplace_back(std::min(a, b), std::max(a, b));
+    }
+    return result;
+  }
+
+  std::vector<std::pair<std::size_t, Rigid>> poses(const ordered_json& json) const {
+    std::vector<std::pair<std::size_t, Rigid>> result;
+    if (!json.contains("poses")) return result;
+    if (!json["poses"].is_object()) fail("\"poses\" is no object of names and matrices");
+    for (const auto& [name, rows] : json["poses"].items()) {
+      const std::string place = fmt::format("\"poses\".\"{}\"", name);
+      const std::size_t number = number_of(name, place);
+      const std::optional<Rigid> pose = rigid_from_json(rows);
+      if (!pose) fail(place + " is no 4 x 4 matrix of a rotation and a shift");
+      if (std::any_of(result.begin(), result.end(), [&](const auto& p) { return p.first == number; }))
+        fail(place + " is given twice");
+      result.emplace_back(number, *pose);
+    }
+    return result;
+  }
+
+  const std::string& path_;
+  const std::vector<std::string>& names_;
+};
+
+}  // namespace
+
+assembly::Constraints read_constraints(const std::string& path, const std::vector<std::string>& names) {
+  return Reader(path, names).read();
+}
+
+}  // namespace rejoin::cli

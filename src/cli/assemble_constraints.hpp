@@ -1,0 +1,17 @@
+/// The file of --constraints.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "assembly/assembly.hpp"
+
+namespace rejoin::cli {
+
+/// Reads {"must_join": [[A, B], ...], "must_not_join": [[A, B], ...], "poses": {A: 4 x 4, ...}}; every part may be missing.
+/// \param names  of the fragments; those in the file are these
+/// \throws IoError it cannot be read   \throws InputError it is no such file, names a fragment that is not there, a fragment
+///         with itself, or a pair as both
+assembly::Constraints read_constraints(const std::string& path, const std::vector<std::string>& names);
+
+}  // namespace rejoin::cli

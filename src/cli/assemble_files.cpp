@@ -1,0 +1,160 @@
+#include "cli/assemble_files.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <regex>
+
+#include "cli/json_values.hpp"
+#include "core/files.hpp"
+#include "core/version.hpp"
+#include "mesh/save.hpp"
+#include "report/assembly_picture.hpp"
+
+namespace rejoin::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Four rows of four numbers, as CloudCompare and MeshLab read them.
+std::string matrix_text(const Rigid& pose) {
+  std::string text;
+  for (int row = 0; row < 3; ++row) {
+    text += fmt::format("{:.12g} {:.12g} {:.12g} {:.12g}\n", pose.rotation[0][row], pose.rotation[1][row],
+                        pose.rotation[2][row], pose.translation[row]);
+  }
+  return text + "0 0 0 1\n";
+}
+
+/// For an attribute's value in XML; control characters, which XML knows no way to write, become '?'.
+std::string xml_text(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
+    }
+  }
+  return result;
+}
+
+ordered_json left_out(const std::string& reason) {
+  return {{"pose", nullptr}, {"group", -1}, {"reason", reason}};
+}
+
+ordered_json joins_json(const AssembleInput& input, const assembly::Result& result) {
+  ordered_json joins = ordered_json::array();
+  for (const assembly::Join& join : result.joins) {
+    joins.push_back({{"a", input.names[join.a]},
+                     {"b", input.names[join.b]},
+                     {"score", join.score},
+                     {"contact", join.contact_area},
+                     {"gap_median", join.gap_median},
+                     {"found_by", join.found ? "contact" : "match"}});
+  }
+  return joins;
+}
+
+std::vector<report::PlacedFragment> placed_fragments(const AssembleInput& input,
+                                                     const assembly::Result& result) {
+  std::vector<report::PlacedFragment> placed;
+  for (std::size_t k = 0; k < input.names.size(); ++k) {
+    const assembly::Placement& placement = result.placements[k];
+    if (placement.group < 0) continue;
+    placed.push_back({input.names[k], &input.fragments[k].coarse, placement.pose, placement.group});
+  }
+  return placed;
+}
+
+}  // namespace
+
+std::string with_names(const std::string& text, const std::vector<std::string>& names) {
+  static const std::regex kNumber(R"(\{(\d+)\})");
+  std::string result;
+  auto last = text.cbegin();
+  for (std::sregex_iterator hit(text.begin(), text.end(), kNumber), end; hit != end; ++hit) {
+    result.append(last, (*hit)[0].first);
+    result += names.at(std::stoul((*hit)[1]));
+    last = (*hit)[0].second;
+  }
+  return result.append(last, text.cend());
+}
+
+std::string assembly_json(const AssembleInput& input, const assembly::Result& result) {
+  ordered_json fragments = ordered_json::object();
+  ordered_json unplaced = ordered_json::array();
+  for (std::size_t k = 0; k < input.names.size(); ++k) {
+    const assembly::Placement& placement = result.placements[k];
+    if (placement.group < 0) {
+      unplaced.push_back(input.names[k]);
+      fragments[input.names[k]] = left_out(with_names(placement.reason, input.names));
+      continue;
+    }
+    fragments[input.names[k]] = {
+        {"pose", to_json(placement.pose)}, {"group", placement.group}, {"confidence", placement.confidence}};
+  }
+  for (const auto& [name, reason] : input.bad) {
+    unplaced.push_back(name);
+    fragments[name] = left_out(reason);
+  }
+  return text_of({{"schema", "rejoin.assembly/1"},
+                  {"fragments", fragments},
+                  {"joins", joins_json(input, result)},
+                  {"unplaced", unplaced},
+                  {"groups", result.groups},
+                  {"interrupted", result.cancelled},
+                  {"version", kVersion}});
+}
+
+std::string meshlab_project(const AssembleInput& input, const assembly::Result& result) {
+  std::string text = "<!DOCTYPE MeshLabDocument>\n<MeshLabProject>\n <MeshGroup>\n";
+  for (std::size_t k = 0; k < input.names.size(); ++k) {
+    const assembly::Placement& placement = result.placements[k];
+    if (placement.group < 0) continue;
+    const std::string path = std::filesystem::absolute(input.paths[k]).lexically_normal().string();
+    text += fmt::format(
+        "  <MLMesh label=\"{}\" filename=\"{}\">\n   <MLMatrix44>\n{}</MLMatrix44>\n  </MLMesh>\n",
+        xml_text(input.names[k]), xml_text(path), matrix_text(placement.pose));
+  }
+  return text + " </MeshGroup>\n <RasterGroup/>\n</MeshLabProject>\n";
+}
+
+std::vector<std::filesystem::path> write_assembly(const std::filesystem::path& folder,
+                                                  const AssembleInput& input,
+                                                  const assembly::Result& result) {
+  std::vector<std::filesystem::path> files;
+  const std::filesystem::path matrices = folder / "cloudcompare";
+  require_writable_folder(matrices);
+  std::vector<mesh::Placed> parts;
+  for (std::size_t k = 0; k < input.names.size(); ++k) {
+    const assembly::Placement& placement = result.placements[k];
+    if (placement.group < 0) continue;
+    parts.push_back({input.names[k], &input.fragments[k].surface, placement.pose});
+    files.push_back(matrices / (input.names[k] + ".txt"));
+    write_file(files.back(), matrix_text(placement.pose));
+  }
+  files.push_back(folder / "assembled.mlp");
+  write_file(files.back(), meshlab_project(input, result));
+  if (parts.empty()) return files;
+  for (const char* name : {"assembled.glb", "assembled.ply"}) {
+    files.push_back(folder / name);
+    mesh::save_scene(files.back(), parts);
+  }
+  files.push_back(folder / "assembled.png");
+  report::write_assembly_picture(files.back(), placed_fragments(input, result));
+  return files;
+}
+
+}  // namespace rejoin::cli

@@ -1,0 +1,28 @@
+/// Files that rejoin assemble writes.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "assembly/assembly.hpp"
+#include "cli/assemble_input.hpp"
+
+namespace rejoin::cli {
+
+/// Numbers in braces, as in assembly::Placement::reason, replaced by names.
+std::string with_names(const std::string& text, const std::vector<std::string>& names);
+
+/// "rejoin.assembly/1".
+std::string assembly_json(const AssembleInput& input, const assembly::Result& result);
+
+/// A MeshLab project of the scans' files at their poses.
+std::string meshlab_project(const AssembleInput& input, const assembly::Result& result);
+
+/// assembled.glb, .ply, .mlp and .png, and a folder "cloudcompare" with a matrix a fragment.
+/// \return what was written
+/// \throws IoError
+std::vector<std::filesystem::path> write_assembly(const std::filesystem::path& folder,
+                                                  const AssembleInput& input, const assembly::Result& result);
+
+}  // namespace rejoin::cli

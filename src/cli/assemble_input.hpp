@@ -1,0 +1,37 @@
+/// What rejoin assemble works on.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "assembly/assembly.hpp"
+#include "cli/console.hpp"
+
+namespace rejoin::cli {
+
+/// Fragments and the poses of their pairs, ready for assembly.
+struct AssembleInput {
+  std::vector<std::string> names;  ///< of the files, ascending
+  std::vector<std::string> paths;  ///< where the scans were read
+  std::vector<match::Fragment> fragments;
+  std::vector<assembly::Link> links;
+  std::map<std::string, std::string> bad;  ///< fragments that could not be used, with the reason
+};
+
+/// Whether the folder is that of a run.
+bool is_run(const std::filesystem::path& folder);
+
+/// Reads a run, or matches all pairs of a folder of scans first, and loads the fragments.  Bad ones are told as warnings and
+/// left out.
+/// \param folder  of a run (it holds run.sqlite), or of scans
+/// \param keep    folder for the run of a folder of scans: a run that is there goes on; nullopt: a passing one
+/// \return nothing at all if it was interrupted while matching
+/// \throws IoError, StoreError, InputError as batch::run(); InputError fewer than two fragments can be used
+AssembleInput read_assemble_input(const std::filesystem::path& folder,
+                                  const std::optional<std::filesystem::path>& keep, Console& console,
+                                  const Context& context);
+
+}  // namespace rejoin::cli

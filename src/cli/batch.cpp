@@ -1,0 +1,107 @@
+/// rejoin batch
+#include "batch/batch.hpp"
+
+#include <fmt/core.h>
+
+#include <charconv>
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include "batch/table.hpp"
+#include "cli/arguments.hpp"
+#include "cli/batch_listeners.hpp"
+#include "cli/command.hpp"
+
+namespace rejoin::cli {
+namespace {
+
+constexpr std::size_t kMostShards = 1000000;
+
+/// "3/8": the third of eight.
+/// \throws UsageError
+batch::Shard parse_shard(const std::string& text) {
+  batch::Shard shard;
+  const char* end = text.data() + text.size();
+  const auto number = std::from_chars(text.data(), end, shard.number);
+  const bool slash = number.ec == std::errc() && number.ptr != end && *number.ptr == '/';
+  const auto count = slash ? std::from_chars(number.ptr + 1, end, shard.count) : number;
+  if (!slash || count.ec != std::errc() || count.ptr != end || shard.number < 1 ||
+      shard.number > shard.count || shard.count > kMostShards) {
+    throw UsageError("--shard", fmt::format("'{}' is no part of a whole", text),
+                     "give I/N, such as 1/8 .. 8/8");
+  }
+  return shard;
+}
+
+class BatchCommand final : public Command {
+ public:
+  void define(CLI::App& app) override {
+    app.add_option("DIR", inputs_, "folder of scans: ply, obj, stl, off, gltf, glb or drc")
+        ->required()
+        ->group("Input");
+    app.add_option("--out", out_, "folder of the run; goes on with what it holds")
+        ->type_name("RUN")
+        ->required()
+        ->group("Output");
+    app.add_flag("--json", json_, "tell the course as JSON lines on stdout")->group("Output");
+    app.option_defaults()->group("Search");
+    app.add_option("--shard", shard_, "do part I of N, into a folder of its own")->type_name("I/N");
+    app.add_flag("--retry", options_.retry, "try again what failed before");
+    app.add_option("--resolution", options_.match.resolution, "pixels across a depth map, 8 to 2048 (128)")
+        ->type_name("N")
+        ->check(in_range(8, 2048));
+    add_choice(app, "--backend", options_.match.backend, backend_choices(), "what draws");
+    app.add_option("--seed", options_.match.seed, "of the random numbers (1)")->type_name("S");
+  }
+
+  ExitCode run(Console& console, Context& context) override {
+    if (!shard_.empty()) options_.shard = parse_shard(shard_);
+    const auto listener = json_ ? make_json_listener(console) : make_console_listener(console);
+    const auto begin = std::chrono::steady_clock::now();
+    const batch::Summary summary = batch::run(inputs_, out_, options_, *listener, context);
+    console.end_progress();
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    if (json_) {
+      tell_end_as_json(summary);
+    } else {
+      console.result(text_of(summary, seconds.count()));
+    }
+    return tell_end(console, summary);
+  }
+
+ private:
+  std::string text_of(const batch::Summary& summary, double seconds) const {
+    const batch::Progress& progress = summary.progress;
+    return fmt::format("{} fragments, {} of {} pairs done, {} of them now, in {}\nwrote {}/{}\n",
+                       summary.fragments, progress.done, progress.total, progress.done - summary.done_before,
+                       duration_text(seconds), out_, batch::kTableName);
+  }
+
+  ExitCode tell_end(Console& console, const batch::Summary& summary) const {
+    if (summary.cancelled) {
+      console.warning("interrupted; the same command goes on where it stopped");
+      return kInterrupted;
+    }
+    if (summary.progress.failed == 0 && summary.bad.empty()) return kDone;
+    console.warning(
+        fmt::format("{} of {} pairs failed, {} scans cannot be used; mend them and run the same command "
+                    "again, or add --retry",
+                    summary.progress.failed, summary.progress.total, summary.bad.size()));
+    return kFailure;
+  }
+
+  std::string inputs_;
+  std::string out_;
+  std::string shard_;
+  bool json_ = false;
+  batch::Options options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_batch_command() {
+  return std::make_unique<BatchCommand>();
+}
+
+}  // namespace rejoin::cli

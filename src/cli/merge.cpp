@@ -1,0 +1,51 @@
+/// rejoin merge
+#include "store/merge.hpp"
+
+#include <fmt/core.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "batch/table.hpp"
+#include "cli/command.hpp"
+#include "cli/interrupt.hpp"
+#include "core/files.hpp"
+#include "store/run.hpp"
+
+namespace rejoin::cli {
+namespace {
+
+class MergeCommand final : public Command {
+ public:
+  void define(CLI::App& app) override {
+    app.add_option("RUN", runs_, "folders that rejoin batch --shard wrote")->required()->group("Input");
+    app.add_option("--out", out_, "folder of the whole")->type_name("RUN")->required()->group("Output");
+  }
+
+  ExitCode run(Console& console, Context& /*context*/) override {
+    require_writable_folder(out_);
+    const NothingToSave guard;
+    const store::Merged merged = store::merge({runs_.begin(), runs_.end()}, out_);
+    batch::write_table(store::Run::open(out_), std::filesystem::path(out_) / batch::kTableName);
+    console.result(fmt::format("{} fragments, {} pairs", merged.fragments, merged.pairs));
+    const std::size_t all = merged.fragments * (merged.fragments - 1) / 2;
+    if (merged.pairs < all) console.result(fmt::format(" ({} are still to be done)", all - merged.pairs));
+    console.result(fmt::format("\nwrote {}/{}\n", out_, batch::kTableName));
+    if (merged.failed == 0) return kDone;
+    console.warning(fmt::format("{} pairs failed; the table tells why", merged.failed));
+    return kFailure;
+  }
+
+ private:
+  std::vector<std::string> runs_;
+  std::string out_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_merge_command() {
+  return std::make_unique<MergeCommand>();
+}
+
+}  // namespace rejoin::cli

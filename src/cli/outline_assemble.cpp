@@ -1,0 +1,87 @@
+/// rejoin outline assemble
+#include <fmt/core.h>
+
+#include <chrono>
+#include <optional>
+
+#include "cli/arguments.hpp"
+#include "cli/outline_command.hpp"
+#include "cli/outline_json.hpp"
+#include "core/files.hpp"
+#include "outline/assembly.hpp"
+#include "outline/assembly_pictures.hpp"
+
+namespace rejoin::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+std::string summary(const std::vector<outline::Piece>& pieces, const outline::Assembly& assembly) {
+  std::vector<std::size_t> sizes;
+  for (const outline::Placement& placement : assembly.placements) {
+    if (placement.group >= sizes.size()) sizes.resize(placement.group + 1, 0);
+    ++sizes[placement.group];
+  }
+  std::string text = fmt::format("{} of {} pieces placed by {} joins, borders {:.3g} apart (rms)\n",
+                                 pieces.size() - assembly.unplaced.size(), pieces.size(),
+                                 assembly.joins.size(), assembly.rms);
+  for (std::size_t group = 0; group < sizes.size() && sizes[group] > 1; ++group)
+    text += fmt::format("  object {}: {} pieces\n", group + 1, sizes[group]);
+  for (const std::size_t piece : assembly.unplaced)
+    text += fmt::format("  fits nowhere: {}\n", pieces[piece].name);
+  return text;
+}
+
+class OutlineAssembleCommand final : public Command {
+ public:
+  void define(CLI::App& app) override {
+    app.add_option("DIR", folder_, "folder of pieces: png, jpg, tif, csv, svg or geojson")
+        ->required()
+        ->group("Input");
+    app.add_option("--json", json_, "write poses and joins")->type_name("FILE")->group("Output");
+    app.add_option("--out", out_, "write pictures of the objects, their joins and the similarity matrix")
+        ->type_name("DIR")
+        ->group("Output");
+    add_outline_method(app, method_);
+  }
+
+  ExitCode run(Console& console, Context& context) override {
+    const Clock::time_point begin = Clock::now();
+    if (json_) require_writable_file(*json_);
+    if (out_) require_writable_folder(*out_);
+    outline::PieceSet set = outline::read_folder(folder_);
+    for (const std::string& note : set.notes) console.warning(note);
+    if (set.pieces.size() < 2) throw InputError(folder_, "holds one piece only", "give a folder of pieces");
+    console.detail(fmt::format("read {} pieces in {:.2f} s", set.pieces.size(), seconds_since(begin)));
+    const std::unique_ptr<outline::Matcher> matcher = make_matcher(method_);
+    matcher->prepare(set.pieces);
+    console.detail(fmt::format("prepared after {:.2f} s", seconds_since(begin)));
+    const outline::Assembly assembly = outline::assemble(set.pieces, *matcher, {}, context);
+    console.detail(fmt::format("assembled after {:.2f} s", seconds_since(begin)));
+    if (json_) {
+      const OutlineSearch search{name_of(method_), seconds_since(begin), assembly.cancelled};
+      write_file(*json_, assembly_json(set.pieces, assembly, search));
+    }
+    console.result(summary(set.pieces, assembly));
+    if (out_) outline::write_assembly_pictures(*out_, set.pieces, assembly);
+    return context.cancelled() ? kInterrupted : kDone;
+  }
+
+ private:
+  std::string folder_;
+  std::optional<std::string> json_;
+  std::optional<std::string> out_;
+  OutlineMethod method_ = OutlineMethod::Automatic;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_outline_assemble_command() {
+  return std::make_unique<OutlineAssembleCommand>();
+}
+
+}  // namespace rejoin::cli

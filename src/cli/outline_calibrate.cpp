@@ -1,0 +1,67 @@
+/// rejoin outline calibrate
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <optional>
+
+#include "cli/arguments.hpp"
+#include "cli/outline_calibration.hpp"
+#include "cli/outline_command.hpp"
+#include "core/files.hpp"
+
+namespace rejoin::cli {
+namespace {
+
+std::string table(const std::vector<outline::CalibratedLevel>& levels) {
+  std::string text = "    step     xi   zeta  n_min   mistaken   true  false\n";
+  for (const outline::CalibratedLevel& l : levels) {
+    text +=
+        fmt::format("{:8.4g} {:6.2f} {:6.2f} {:6.1f} {:8.1f} % {:6} {:6}\n", l.step, l.level.xi, l.level.zeta,
+                    l.level.n_min, 100.0 * l.mistaken, l.true_candidates, l.false_candidates);
+  }
+  return text;
+}
+
+class OutlineCalibrateCommand final : public Command {
+ public:
+  void define(CLI::App& app) override {
+    app.add_option("DIR", folder_, "folder of pieces whose joins are known")->required()->group("Input");
+    app.add_option("--joins", joins_, "assembly or truth (DIR/truth.json)")
+        ->type_name("FILE")
+        ->group("Input");
+    app.add_option("--json", json_, "write the parameters")->type_name("FILE")->group("Output");
+    app.add_option("--scales", options_.scales, "scales, 1 to 8 (5)")
+        ->type_name("N")
+        ->check(in_range(1, 8))
+        ->group("Search");
+    app.add_option("--seed", options_.seed, "of the random numbers (1)")->type_name("S")->group("Search");
+  }
+
+  ExitCode run(Console& console, Context& context) override {
+    if (json_) require_writable_file(*json_);
+    const outline::PieceSet set = outline::read_folder(folder_);
+    for (const std::string& note : set.notes) console.warning(note);
+    const std::string path = joins_.value_or((std::filesystem::path(folder_) / "truth.json").string());
+    const std::vector<outline::KnownJoin> joins = read_known_joins(path, set.pieces);
+    const std::vector<outline::CalibratedLevel> levels =
+        outline::calibrate(set.pieces, joins, options_, context);
+    if (context.cancelled()) return kInterrupted;
+    if (json_) write_file(*json_, calibration_json(levels));
+    console.result(table(levels));
+    return kDone;
+  }
+
+ private:
+  std::string folder_;
+  std::optional<std::string> joins_;
+  std::optional<std::string> json_;
+  outline::CalibrateOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_outline_calibrate_command() {
+  return std::make_unique<OutlineCalibrateCommand>();
+}
+
+}  // namespace rejoin::cli

@@ -1,0 +1,145 @@
+#include "cli/outline_calibration.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "cli/json_values.hpp"
+#include "core/error.hpp"
+#include "core/version.hpp"
+
+namespace rejoin::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr const char* kSchema = "rejoin.outline-calibration/1";
+
+ordered_json parse_file(const std::string& path, const char* mend) {
+  std::ifstream file(path);
+  if (!file) throw IoError(path, "cannot be read", mend);
+  ordered_json json = ordered_json::parse(file, nullptr, false);
+  if (json.is_discarded() || !json.is_object()) throw InputError(path, "is no JSON object", mend);
+  return json;
+}
+
+/// A similarity of the plane: file coordinates to a common frame, perhaps in another unit.
+struct Similarity {
+  double angle_rad = 0.0;
+  double scale = 1.0;
+  glm::dvec2 translation{0.0};
+};
+
+std::optional<Similarity> similarity_of(const ordered_json& rows) {
+  if (!rows.is_array() || rows.size() < 2) return std::nullopt;
+  for (std::size_t r = 0; r < 2; ++r) {
+    if (!rows[r].is_array() || rows[r].size() != 3) return std::nullopt;
+    for (const ordered_json& value : rows[r]) {
+      if (!value.is_number()) return std::nullopt;
+    }
+  }
+  const glm::dvec2 x(rows[0][0].get<double>(), rows[1][0].get<double>());
+  if (!(glm::length(x) > 0.0)) return std::nullopt;
+  return Similarity{
+      std::atan2(x.y, x.x), glm::length(x), {rows[0][2].get<double>(), rows[1][2].get<double>()}};
+}
+
+/// B's coordinates -> A's.
+outline::Planar relative(const Similarity& a, const Similarity& b) {
+  outline::Planar pose{b.angle_rad - a.angle_rad, {}, false};
+  const outline::Planar back{-a.angle_rad, {}, false};
+  pose.translation = back.direction(b.translation - a.translation) / a.scale;
+  return pose;
+}
+
+/// The names of a join: ["a", "b", ...] or {"a": .., "b": ..}.
+std::optional<std::pair<std::string, std::string>> names_of(const ordered_json& join) {
+  const bool list = join.is_array() && join.size() >= 2;
+  const bool object = join.is_object() && join.contains("a") && join.contains("b");
+  if (!list && !object) return std::nullopt;
+  const ordered_json& a = list ? join[0] : join["a"];
+  const ordered_json& b = list ? join[1] : join["b"];
+  if (!a.is_string() || !b.is_string()) return std::nullopt;
+  return std::pair{a.get<std::string>(), b.get<std::string>()};
+}
+
+struct Placed {
+  std::size_t piece = 0;
+  Similarity place;
+};
+
+std::map<std::string, Placed> placed_pieces(const std::string& path, const ordered_json& json,
+                                            const std::vector<outline::Piece>& pieces) {
+  std::map<std::string, Placed> placed;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const std::string& name = pieces[i].name;
+    if (!json.contains("fragments") || !json["fragments"].contains(name)) continue;
+    const ordered_json& fragment = json["fragments"][name];
+    const char* key = fragment.contains("pose") ? "pose" : "to_world";
+    if (!fragment.contains(key) || fragment[key].is_null()) continue;
+    const auto place = similarity_of(fragment[key]);
+    if (!place)
+      throw InputError(path, "the pose of " + name + " is no 3 x 3 matrix",
+                       "give an assembly of these pieces");
+    placed[name] = {i, *place};
+  }
+  return placed;
+}
+
+}  // namespace
+
+std::vector<outline::KnownJoin> read_known_joins(const std::string& path,
+                                                 const std::vector<outline::Piece>& pieces) {
+  const ordered_json json = parse_file(path, "give the JSON of rejoin outline assemble, or truth.json");
+  const auto placed = placed_pieces(path, json, pieces);
+  std::vector<outline::KnownJoin> joins;
+  for (const ordered_json& join : json.value("joins", ordered_json::array())) {
+    const auto names = names_of(join);
+    if (!names)
+      throw InputError(path, "a join has no two names", "write [\"a\", \"b\"] or {\"a\": .., \"b\": ..}");
+    const auto a = placed.find(names->first);
+    const auto b = placed.find(names->second);
+    if (a == placed.end() || b == placed.end()) continue;
+    joins.push_back({a->second.piece, b->second.piece, relative(a->second.place, b->second.place)});
+  }
+  if (joins.empty())
+    throw InputError(path, "holds no join of these pieces", "give an assembly of pieces from this folder");
+  return joins;
+}
+
+std::string calibration_json(const std::vector<outline::CalibratedLevel>& levels) {
+  ordered_json list = ordered_json::array();
+  for (const outline::CalibratedLevel& l : levels) {
+    list.push_back({{"step", l.step},
+                    {"xi", l.level.xi},
+                    {"zeta", l.level.zeta},
+                    {"n_min", l.level.n_min},
+                    {"mistaken", l.mistaken},
+                    {"true_candidates", l.true_candidates},
+                    {"false_candidates", l.false_candidates}});
+  }
+  return text_of({{"schema", kSchema}, {"levels", list}, {"version", kVersion}});
+}
+
+void read_calibration(const std::string& path, outline::MultiscaleOptions& options) {
+  const char* mend = "give the JSON of rejoin outline calibrate";
+  const ordered_json json = parse_file(path, mend);
+  if (json.value("schema", ordered_json()) != kSchema || !json.contains("levels") ||
+      !json["levels"].is_array() || json["levels"].empty())
+    throw InputError(path, "is no calibration", mend);
+  options.levels.clear();
+  for (const ordered_json& level : json["levels"]) {
+    for (const char* key : {"step", "xi", "zeta", "n_min"}) {
+      if (!level.is_object() || !level.contains(key) || !level[key].is_number() ||
+          !(level[key].get<double>() >= 0.0))
+        throw InputError(path, std::string("a level has no \"") + key + "\"", mend);
+    }
+    if (options.levels.empty()) options.step = level["step"].get<double>();
+    options.levels.push_back(
+        {level["xi"].get<double>(), level["zeta"].get<double>(), level["n_min"].get<double>()});
+  }
+}
+
+}  // namespace rejoin::cli

@@ -1,0 +1,27 @@
+/// Files around rejoin outline calibrate: known joins in, parameters out and in again.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "outline/calibrate.hpp"
+#include "outline/outline.hpp"
+
+namespace rejoin::cli {
+
+/// Joins of known pieces from a JSON file: an assembly ("fragments": {NAME: {"pose": 3 x 3}}, "joins": [{"a", "b"}]), or the
+/// truth of a made set ("to_world" for "pose", joins as [a, b, length]).  Names that no piece has are passed over.
+/// \throws IoError   it cannot be read
+/// \throws InputError no JSON, a matrix is broken, or no join is left
+std::vector<outline::KnownJoin> read_known_joins(const std::string& path,
+                                                 const std::vector<outline::Piece>& pieces);
+
+/// Schema "rejoin.outline-calibration/1".
+std::string calibration_json(const std::vector<outline::CalibratedLevel>& levels);
+
+/// Sets step and levels from a file that calibration_json() made.
+/// \throws IoError   it cannot be read
+/// \throws InputError it is something else
+void read_calibration(const std::string& path, outline::MultiscaleOptions& options);
+
+}  // namespace rejoin::cli

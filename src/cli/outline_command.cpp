@@ -1,0 +1,72 @@
+#include "cli/outline_command.hpp"
+
+#include <fmt/core.h>
+
+#include "cli/arguments.hpp"
+#include "outline/emd.hpp"
+#include "outline/lcs.hpp"
+
+namespace rejoin::cli {
+namespace {
+
+/// A true join's score is hardly ever below the first, a false one's above the second.
+constexpr double kUnsure = 0.3;
+constexpr double kJoin = 0.7;
+
+const Choices<OutlineMethod> kMethods{{"auto", OutlineMethod::Automatic},
+                                      {"multiscale", OutlineMethod::Multiscale},
+                                      {"lcs", OutlineMethod::Lcs},
+                                      {"emd", OutlineMethod::Emd},
+                                      {"frechet", OutlineMethod::Frechet}};
+
+}  // namespace
+
+void add_outline_method(CLI::App& app, OutlineMethod& method) {
+  add_choice(app, "--method", method, kMethods, "how (auto)")->group("Search");
+}
+
+const char* name_of(OutlineMethod method) {
+  switch (method) {
+    case OutlineMethod::Automatic:
+    case OutlineMethod::Multiscale:
+      break;
+    case OutlineMethod::Lcs:
+      return "lcs";
+    case OutlineMethod::Emd:
+      return "emd";
+    case OutlineMethod::Frechet:
+      return "frechet";
+  }
+  return "multiscale";
+}
+
+std::unique_ptr<outline::Matcher> make_matcher(OutlineMethod method,
+                                               const outline::MultiscaleOptions& multiscale) {
+  switch (method) {
+    case OutlineMethod::Automatic:
+    case OutlineMethod::Multiscale:
+      break;
+    case OutlineMethod::Lcs:
+      return outline::make_lcs();
+    case OutlineMethod::Emd:
+      return outline::make_emd();
+    case OutlineMethod::Frechet:
+      return outline::make_frechet();
+  }
+  return outline::make_multiscale(multiscale);
+}
+
+outline::Piece load_piece(const std::string& path, Console& console) {
+  outline::PieceSet set = outline::read_pieces(path);
+  for (const std::string& note : set.notes) console.warning(note);
+  if (set.pieces.size() > 1) {
+    console.warning(fmt::format("{}: holds {} pieces; the largest is taken", path, set.pieces.size()));
+  }
+  return std::move(set.pieces.front());
+}
+
+const char* outline_verdict(double score) {
+  return score >= kJoin ? "join" : score >= kUnsure ? "unsure" : "no join";
+}
+
+}  // namespace rejoin::cli

@@ -1,0 +1,38 @@
+/// The commands of rejoin outline, and what they share.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "cli/command.hpp"
+#include "outline/matcher.hpp"
+#include "outline/multiscale.hpp"
+#include "outline/read.hpp"
+
+namespace rejoin::cli {
+
+std::unique_ptr<Command> make_outline_calibrate_command();
+std::unique_ptr<Command> make_outline_match_command();
+std::unique_ptr<Command> make_outline_assemble_command();
+std::unique_ptr<Command> make_outline_shatter_command();
+
+/// How outlines are compared.
+enum class OutlineMethod { Automatic, Multiscale, Lcs, Emd, Frechet };
+
+/// Adds --method.
+void add_outline_method(CLI::App& app, OutlineMethod& method);
+
+/// "multiscale" ...; what Automatic stands for is named as such.
+const char* name_of(OutlineMethod method);
+
+/// The matcher of a method.
+std::unique_ptr<outline::Matcher> make_matcher(OutlineMethod method,
+                                               const outline::MultiscaleOptions& multiscale = {});
+
+/// The largest piece of a file; tells of repairs and of further pieces.
+outline::Piece load_piece(const std::string& path, Console& console);
+
+/// A score's verdict: "join", "unsure" or "no join".
+const char* outline_verdict(double score);
+
+}  // namespace rejoin::cli

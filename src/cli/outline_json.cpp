@@ -1,0 +1,93 @@
+#include "cli/outline_json.hpp"
+
+#include "cli/json_values.hpp"
+#include "cli/outline_command.hpp"
+#include "core/version.hpp"
+
+namespace rejoin::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json piece_json(const outline::Piece& piece) {
+  return {{"path", piece.path},
+          {"name", piece.name},
+          {"points", piece.outline.points.size()},
+          {"perimeter", outline::perimeter(piece.outline.points)},
+          {"area", outline::signed_area(piece.outline.points)}};
+}
+
+ordered_json candidate_json(const outline::JoinCandidate& candidate) {
+  return {{"pose", to_json(candidate.pose)},
+          {"flipped", candidate.pose.flipped},
+          {"score", candidate.score},
+          {"boundary",
+           {{"begin_a", candidate.boundary.begin_a},
+            {"begin_b", candidate.boundary.begin_b},
+            {"length", candidate.boundary.length}}},
+          {"gap_area", candidate.gap_area},
+          {"overlap_area", candidate.overlap_area}};
+}
+
+}  // namespace
+
+ordered_json to_json(const outline::Planar& pose) {
+  const glm::dmat3 m = outline::matrix(pose);
+  ordered_json rows = ordered_json::array();
+  for (int row = 0; row < 3; ++row) rows.push_back({m[0][row], m[1][row], m[2][row]});
+  return rows;
+}
+
+std::string outline_match_json(const outline::Piece& a, const outline::Piece& b,
+                               const outline::PairResult& result, const OutlineSearch& search) {
+  ordered_json candidates = ordered_json::array();
+  for (const outline::JoinCandidate& candidate : result.candidates)
+    candidates.push_back(candidate_json(candidate));
+  const bool found = !result.candidates.empty();
+  const double score = found ? result.candidates[0].score : 0.0;
+  ordered_json json = {
+      {"schema", "rejoin.outline-match/1"},
+      {"a", piece_json(a)},
+      {"b", piece_json(b)},
+      {"pose", found ? candidates[0]["pose"] : ordered_json()},
+      {"score", score},
+      {"verdict", outline_verdict(score)},
+      {"boundary", found ? candidates[0]["boundary"] : ordered_json()},
+      {"gap_area", found ? candidates[0]["gap_area"] : ordered_json()},
+      {"overlap_area", found ? candidates[0]["overlap_area"] : ordered_json()},
+      {"candidates", candidates},
+      {"search",
+       {{"method", search.method}, {"seconds", search.seconds}, {"interrupted", search.interrupted}}},
+      {"version", kVersion}};
+  return text_of(json);
+}
+
+std::string assembly_json(const std::vector<outline::Piece>& pieces, const outline::Assembly& assembly,
+                          const OutlineSearch& search) {
+  ordered_json fragments = ordered_json::object();
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const outline::Placement& placement = assembly.placements[i];
+    fragments[pieces[i].name] = {
+        {"pose", to_json(placement.pose)}, {"group", placement.group}, {"confidence", placement.confidence}};
+  }
+  ordered_json joins = ordered_json::array();
+  for (const outline::AssemblyJoin& join : assembly.joins)
+    joins.push_back({{"a", pieces[join.a].name},
+                     {"b", pieces[join.b].name},
+                     {"score", join.score},
+                     {"contact", join.contact}});
+  ordered_json unplaced = ordered_json::array();
+  for (const std::size_t piece : assembly.unplaced) unplaced.push_back(pieces[piece].name);
+  const ordered_json json = {
+      {"schema", "rejoin.assembly/1"},
+      {"fragments", fragments},
+      {"joins", joins},
+      {"unplaced", unplaced},
+      {"rms", assembly.rms},
+      {"search",
+       {{"method", search.method}, {"seconds", search.seconds}, {"interrupted", search.interrupted}}},
+      {"version", kVersion}};
+  return text_of(json);
+}
+
+}  // namespace rejoin::cli

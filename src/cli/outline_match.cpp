@@ -1,0 +1,92 @@
+/// rejoin outline match
+#include <fmt/core.h>
+
+#include <chrono>
+#include <optional>
+
+#include "cli/arguments.hpp"
+#include "cli/outline_calibration.hpp"
+#include "cli/outline_command.hpp"
+#include "cli/outline_json.hpp"
+#include "core/files.hpp"
+#include "report/outline_pictures.hpp"
+
+namespace rejoin::cli {
+namespace {
+
+std::string summary(const outline::PairResult& result) {
+  if (result.candidates.empty()) return "no join, nothing fits\n";
+  const outline::JoinCandidate& best = result.candidates.front();
+  const glm::dmat3 m = outline::matrix(best.pose);
+  std::string text = fmt::format("{}, score {:.3f}\n", outline_verdict(best.score), best.score);
+  text += best.pose.flipped ? "pose (B turned over, B's coordinates to A's):\n"
+                            : "pose (B's coordinates to A's):\n";
+  for (int row = 0; row < 3; ++row)
+    text += fmt::format("  {:12.8f} {:12.8f} {:14.6g}\n", m[0][row], m[1][row], m[2][row]);
+  return text +
+         fmt::format(
+             "common boundary: length {:.4g}, gap area {:.4g}, overlap area {:.4g} (in the files' unit)\n",
+             best.boundary.length, best.gap_area, best.overlap_area);
+}
+
+/// One pair can afford to look for boundaries down to a fortieth of the border.
+outline::MultiscaleOptions thorough() {
+  outline::MultiscaleOptions options;
+  options.min_length_share = 1.0 / 40.0;
+  options.per_pair = 16;
+  options.fitted = 60;
+  return options;
+}
+
+class OutlineMatchCommand final : public Command {
+ public:
+  void define(CLI::App& app) override {
+    app.add_option("A", path_a_, "piece: png, jpg, tif, csv, svg or geojson")->required()->group("Input");
+    app.add_option("B", path_b_, "piece that is moved")->required()->group("Input");
+    app.add_option("--json", json_, "write pose, score and boundary")->type_name("FILE")->group("Output");
+    app.add_option("--out", out_, "write match.png and joined.png")->type_name("DIR")->group("Output");
+    add_outline_method(app, method_);
+    app.add_option("--calibration", calibration_, "parameters from outline calibrate")
+        ->type_name("FILE")
+        ->group("Search");
+  }
+
+  ExitCode run(Console& console, Context& context) override {
+    const auto begin = std::chrono::steady_clock::now();
+    require_two_files(path_a_, path_b_);
+    outline::MultiscaleOptions multiscale = thorough();
+    if (calibration_) read_calibration(*calibration_, multiscale);
+    if (json_) require_writable_file(*json_);
+    if (out_) require_writable_folder(*out_);
+    const std::vector<outline::Piece> pieces{load_piece(path_a_, console), load_piece(path_b_, console)};
+    const std::unique_ptr<outline::Matcher> matcher = make_matcher(method_, multiscale);
+    context.report("comparing outlines", 0.0);
+    matcher->prepare(pieces);
+    const outline::PairResult result = matcher->match(0, 1, context);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    if (json_) {
+      const OutlineSearch search{name_of(method_), seconds.count(), context.cancelled()};
+      write_file(*json_, outline_match_json(pieces[0], pieces[1], result, search));
+    }
+    console.result(summary(result));
+    if (out_ && !context.cancelled())
+      report::write_outline_match_pictures(*out_, pieces[0], pieces[1], result);
+    return context.cancelled() ? kInterrupted : kDone;
+  }
+
+ private:
+  std::string path_a_;
+  std::string path_b_;
+  std::optional<std::string> json_;
+  std::optional<std::string> out_;
+  std::optional<std::string> calibration_;
+  OutlineMethod method_ = OutlineMethod::Automatic;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_outline_match_command() {
+  return std::make_unique<OutlineMatchCommand>();
+}
+
+}  // namespace rejoin::cli

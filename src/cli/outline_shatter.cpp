@@ -1,0 +1,120 @@
+/// rejoin outline shatter
+#include <fmt/core.h>
+
+#include <filesystem>
+
+#include "cli/arguments.hpp"
+#include "cli/outline_command.hpp"
+#include "core/files.hpp"
+#include "outline/shatter.hpp"
+
+namespace rejoin::cli {
+namespace {
+
+/// What a piece's file holds.
+enum class Format { Csv, Pixels, Png };
+
+const Choices<Format> kFormats{{"csv", Format::Csv}, {"pixels", Format::Pixels}, {"png", Format::Png}};
+
+std::string csv_of(const outline::Outline& outline) {
+  std::string text = "x,y\n";
+  for (const glm::dvec2& p : outline.points) text += fmt::format("{:.4f},{:.4f}\n", p.x, p.y);
+  return text;
+}
+
+class OutlineShatterCommand final : public Command {
+ public:
+  void define(CLI::App& app) override {
+    app.add_option("DIR", folder_, "new or empty folder for the pieces and truth.json")
+        ->required()
+        ->group("Output");
+    add_choice(app, "--format", format_, kFormats, "kind of files (csv)")->group("Output");
+    app.option_defaults()->group("Objects");
+    CLI::Option* shapes = app.add_option("--shapes", shapes_, "random polygons to break, 1 to 10000 (1)")
+                              ->type_name("N")
+                              ->check(in_range(1, 10000));
+    app.add_option("--tiles", tiles_, "ceramic tiles of 100 to 150 mm a side instead")
+        ->type_name("N")
+        ->check(in_range(1, 10000))
+        ->excludes(shapes);
+    app.add_option("--pieces", options_.pieces, "in all, up to 100000 (8)")
+        ->type_name("N")
+        ->check(in_range(1, 100000));
+    app.add_option("--resolution", resolution_, "shapes: pixels a unit (100); tiles: dpi (300)")
+        ->type_name("N")
+        ->check(in_range(10, 2400));
+    app.option_defaults()->group("Damage");
+    app.add_option("--wear", options_.wear, "pixels worn off the edges, 0 to 20 (0)")
+        ->type_name("PX")
+        ->check(in_range(0, 20));
+    app.add_option("--noise", options_.noise, "deviation of the scanned edge, 0 to 3 pixels (0)")
+        ->type_name("PX")
+        ->check(in_range(0, 3));
+    app.add_flag("--flip", options_.flip, "about half of the pieces lie upside down");
+    app.add_option("--seed", options_.seed, "of the random numbers (1)")->type_name("S");
+  }
+
+  ExitCode run(Console& console, Context& context) override {
+    const outline::ShatterOptions options = complete_options();
+    require_empty();
+    context.report("breaking", 0.0);
+    const outline::Shattered broken = outline::shatter(options, context);
+    if (context.cancelled()) return kInterrupted;
+    const std::string ending = format_ == Format::Png ? ".png" : ".csv";
+    const std::filesystem::path folder(folder_);
+    for (std::size_t n = 0; n < broken.pieces.size(); ++n) {
+      if (context.cancelled()) return kInterrupted;
+      context.report("writing pieces", static_cast<double>(n) / static_cast<double>(broken.pieces.size()));
+      write_file(folder / (broken.pieces[n].piece.name + ending), content_of(broken.pieces[n], options));
+    }
+    write_file(folder / "truth.json", outline::truth_json(broken, options, ending));
+    console.result(fmt::format("{}: {} pieces of {} {}{}, {} joins\n", folder_, broken.pieces.size(),
+                               options.objects, tiles_ > 0 ? "tile" : "shape",
+                               options.objects == 1 ? "" : "s", broken.joins.size()));
+    return kDone;
+  }
+
+ private:
+  /// Pieces of another run among the new ones would be taken for theirs.
+  void require_empty() const {
+    require_writable_folder(folder_);
+    std::error_code ignored;
+    if (!std::filesystem::is_empty(folder_, ignored))
+      throw IoError(folder_, "the folder is not empty", "name a new or empty folder");
+  }
+
+  outline::ShatterOptions complete_options() const {
+    outline::ShatterOptions options = options_;
+    const bool tiles = tiles_ > 0;
+    options.kind = tiles ? outline::ObjectKind::Tile : outline::ObjectKind::Shape;
+    options.objects = tiles ? tiles_ : shapes_;
+    options.resolution = resolution_ > 0 ? resolution_ : tiles ? 300.0 : 100.0;
+    options.scan = format_ == Format::Pixels ? outline::ScanKind::Pixels : outline::ScanKind::Samples;
+    if (options.pieces < options.objects) {
+      throw UsageError("--pieces", fmt::format("{} pieces of {} objects", options.pieces, options.objects),
+                       "ask for at least one piece an object");
+    }
+    return options;
+  }
+
+  std::string content_of(const outline::ShatteredPiece& piece, const outline::ShatterOptions& options) const {
+    if (format_ != Format::Png) return csv_of(piece.piece.outline);
+    const std::vector<std::uint8_t> bytes = outline::picture_png(piece, options);
+    return {bytes.begin(), bytes.end()};
+  }
+
+  std::string folder_;
+  Format format_ = Format::Csv;
+  int shapes_ = 1;
+  int tiles_ = 0;
+  double resolution_ = 0.0;
+  outline::ShatterOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_outline_shatter_command() {
+  return std::make_unique<OutlineShatterCommand>();
+}
+
+}  // namespace rejoin::cli

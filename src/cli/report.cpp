@@ -1,0 +1,60 @@
+/// rejoin report
+#include <fmt/core.h>
+
+#include <filesystem>
+#include <optional>
+
+#include "cli/arguments.hpp"
+#include "cli/command.hpp"
+#include "cli/run_report.hpp"
+#include "core/files.hpp"
+
+namespace rejoin::cli {
+namespace {
+
+class ReportCommand final : public Command {
+ public:
+  void define(CLI::App& app) override {
+    app.add_option("RUN", run_, "folder of rejoin batch, with assembly.json if rejoin assemble was there")
+        ->required()
+        ->group("Input");
+    app.add_option("--out", out_, "the page (RUN/report.html)")->type_name("FILE")->group("Output");
+    app.option_defaults()->group("Size");
+    app.add_option("--pictures", options_.pictured_joins, "joins that get pictures (60)")
+        ->type_name("N")
+        ->check(in_range(0, 10000));
+    app.add_option("--faces", options_.fragment_faces, "faces a fragment in the 3D view, at most (16000)")
+        ->type_name("N")
+        ->check(in_range(64, 1e6));
+  }
+
+  ExitCode run(Console& console, Context& context) override {
+    const std::filesystem::path run = run_;
+    const std::filesystem::path folder = std::filesystem::is_directory(run) ? run : run.parent_path();
+    const std::filesystem::path out = out_ ? std::filesystem::path(*out_) : folder / "report.html";
+    require_writable_file(out);
+    const report::RunReport report = read_run(run, options_.listed_pairs, console, context);
+    const bool written = !context.cancelled() && report::write_run_report(report, out, context, options_);
+    console.end_progress();
+    if (!written) {
+      console.warning("interrupted; no page was written");
+      return kInterrupted;
+    }
+    console.result(fmt::format("wrote {} ({:.1f} MB)\n", out.string(),
+                               static_cast<double>(std::filesystem::file_size(out)) / 1e6));
+    return kDone;
+  }
+
+ private:
+  std::string run_;
+  std::optional<std::string> out_;
+  report::RunReportOptions options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_report_command() {
+  return std::make_unique<ReportCommand>();
+}
+
+}  // namespace rejoin::cli

@@ -1,0 +1,234 @@
+#include "cli/run_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "cli/json_values.hpp"
+#include "core/error.hpp"
+#include "mesh/load.hpp"
+#include "mesh/surface.hpp"
+#include "store/run.hpp"
+
+namespace rejoin::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr const char* kAssemblyName = "assembly.json";
+constexpr std::size_t kMostFaces = 10'000'000;  ///< of all fragments together: a gigabyte
+constexpr std::size_t kFragmentFaces = 40'000;  ///< finer than the pictures show
+constexpr std::size_t kLeastFaces = 4'000;
+
+/// Numbers of the fragments by name.
+using Numbers = std::map<std::string, std::size_t>;
+
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& problem) {
+  throw InputError(path.string(), problem, "make it again with rejoin assemble");
+}
+
+/// Takes poses, groups and joins over from the assembly.
+class AssemblyReader {
+ public:
+  AssemblyReader(std::filesystem::path path, report::RunReport& report, const Numbers& numbers)
+      : path_(std::move(path)), report_(report), numbers_(numbers) {}
+
+  void read() {
+    try {
+      read_fields();
+    } catch (const ordered_json::exception& error) {  // a value of another type than the schema has
+      refuse(path_, std::string("is no assembly (") + error.what() + ")");
+    }
+  }
+
+ private:
+  void read_fields() {
+    std::ifstream file(path_);
+    const ordered_json json = ordered_json::parse(file, nullptr, false);
+    if (!json.is_object() || json.value("schema", "") != "rejoin.assembly/1")
+      refuse(path_, "is no assembly (schema rejoin.assembly/1)");
+    if (!json.contains("fragments") || !json["fragments"].is_object()) refuse(path_, "has no \"fragments\"");
+    for (const auto& [name, value] : json["fragments"].items()) place(name, value);
+    const ordered_json joins = json.value("joins", ordered_json::array());
+    for (const ordered_json& join : joins) use(join);
+  }
+
+  std::size_t number_of(const ordered_json& name) const {
+    const auto at = name.is_string() ? numbers_.find(name.get<std::string>()) : numbers_.end();
+    if (at == numbers_.end()) refuse(path_, "names a fragment that the run does not have: " + name.dump());
+    return at->second;
+  }
+
+  void place(const std::string& name, const ordered_json& value) {
+    report::ReportFragment& fragment = report_.fragments[number_of(name)];
+    if (!value.is_object()) refuse(path_, "fragment \"" + name + "\" is no object");
+    fragment.reason = value.value("reason", fragment.reason);
+    const int group = value.value("group", -1);
+    if (group < 0 || !value.contains("pose") || value["pose"].is_null()) return;
+    fragment.pose = rigid_from_json(value["pose"]);
+    if (!fragment.pose)
+      refuse(path_, "pose of \"" + name + "\" is no 4 x 4 matrix of a rotation and a shift");
+    fragment.group = group;
+    if (value.contains("confidence") && value["confidence"].is_number())
+      fragment.confidence = value["confidence"].get<double>();
+    fragment.reason.clear();
+  }
+
+  void use(const ordered_json& join) {
+    if (!join.is_object() || !join.contains("a") || !join.contains("b"))
+      refuse(path_, "a join has no \"a\" and \"b\"");
+    const std::size_t a = number_of(join["a"]);
+    const std::size_t b = number_of(join["b"]);
+    const auto same = [&](const report::ReportPair& pair) {
+      return std::minmax(pair.a, pair.b) == std::minmax(a, b);
+    };
+    const auto known = std::find_if(report_.pairs.begin(), report_.pairs.end(), same);
+    if (known != report_.pairs.end()) {
+      known->used = true;
+      return;
+    }
+    report::ReportPair pair;
+    pair.a = a;
+    pair.b = b;
+    pair.score = join.value("score", 0.0);
+    pair.verdict = "touch";
+    pair.used = true;
+    report_.pairs.push_back(std::move(pair));
+  }
+
+  std::filesystem::path path_;
+  report::RunReport& report_;
+  const Numbers& numbers_;
+};
+
+mesh::Mesh read_surface(const std::string& path, std::size_t faces) {
+  mesh::Mesh scan = mesh::load(path).mesh;
+  if (scan.is_cloud()) scan = mesh::surface_of_cloud(scan);
+  return mesh::simplify(scan, faces);
+}
+
+void read_scans(report::RunReport& report, Console& console, const Context& context) {
+  const std::size_t count = report.fragments.size();
+  const std::size_t faces =
+      std::clamp(kMostFaces / std::max<std::size_t>(1, count), kLeastFaces, kFragmentFaces);
+  for (std::size_t k = 0; k < count && !context.cancelled(); ++k) {
+    context.report("scans", static_cast<double>(k) / static_cast<double>(count));
+    report::ReportFragment& fragment = report.fragments[k];
+    try {
+      fragment.mesh = read_surface(fragment.path, faces);
+    } catch (const Error& error) {
+      console.end_progress();
+      console.warning(error.what());
+      report.warnings.emplace_back(error.what());
+    }
+    if (fragment.mesh.faces.empty()) fragment.mesh = {};
+  }
+}
+
+std::vector<report::ReportFigure> figures(const store::Pair& pair,
+                                          const std::vector<store::Candidate>& candidates) {
+  std::vector<report::ReportFigure> list;
+  if (!candidates.empty()) {
+    const store::Candidate& best = candidates.front();
+    list = {{"median gap", best.gap_median},
+            {"penetration", best.penetration},
+            {"contact area", best.contact_area},
+            {"slope error", best.slope},
+            {"ray-cast slope error", best.raycast},
+            {"depth error", best.depth},
+            {"silhouette overlap, %", 100 * best.overlap}};
+  }
+  list.push_back({"poses found", static_cast<double>(candidates.size())});
+  if (candidates.size() > 1) list.push_back({"second pose's score", candidates[1].score});
+  list.push_back({"seconds", pair.seconds});
+  return list;
+}
+
+std::string verdict_of(const store::Pair& pair) {
+  return pair.stage == store::Stage::Failed ? "failed: " + pair.error : pair.verdict;
+}
+
+void add_pairs(report::RunReport& report, const store::Run& run, const Numbers& numbers, std::size_t listed) {
+  std::size_t rank = 0;
+  for (const store::Pair& stored : run.pairs()) {
+    report::ReportPair pair;
+    pair.a = numbers.at(stored.name_a);
+    pair.b = numbers.at(stored.name_b);
+    pair.score = stored.score;
+    pair.verdict = verdict_of(stored);
+    if (rank++ < listed) {
+      const std::vector<store::Candidate> candidates = run.candidates(stored);
+      pair.figures = figures(stored, candidates);
+      if (!candidates.empty()) pair.pose = candidates.front().pose;
+    }
+    report.pairs.push_back(std::move(pair));
+  }
+}
+
+/// What can be said of a fragment that the assembly leaves out without a word.
+void add_reasons(report::RunReport& report, bool assembled) {
+  std::vector<const report::ReportPair*> best(report.fragments.size(), nullptr);
+  for (const report::ReportPair& pair : report.pairs) {
+    for (const std::size_t k : {pair.a, pair.b}) {
+      if (best[k] == nullptr || pair.score > best[k]->score) best[k] = &pair;
+    }
+  }
+  for (std::size_t k = 0; k < report.fragments.size(); ++k) {
+    report::ReportFragment& fragment = report.fragments[k];
+    if (fragment.pose || !fragment.reason.empty()) continue;
+    if (!assembled) {
+      fragment.reason = "not assembled yet (rejoin assemble)";
+    } else if (best[k] == nullptr) {
+      fragment.reason = "compared with no other fragment";
+    } else {
+      fragment.reason = best[k]->verdict == "join" ? "its joints contradict the assembly"
+                                                   : "none of its joints is sure enough";
+    }
+  }
+}
+
+void add_parameters(report::RunReport& report, const store::Run& run, const std::filesystem::path& folder) {
+  const store::Parameters parameters = run.parameters();
+  report.parameters = {{"run", folder.string()},
+                       {"matched by", "rejoin " + parameters.version},
+                       {"seed", std::to_string(parameters.seed)}};
+  const ordered_json json = ordered_json::parse(parameters.json, nullptr, false);
+  if (!json.is_object()) return;
+  for (const auto& [name, value] : json.items())
+    report.parameters.emplace_back(name, value.is_string() ? value.get<std::string>() : value.dump());
+}
+
+}  // namespace
+
+report::RunReport read_run(const std::filesystem::path& run, std::size_t listed, Console& console,
+                           const Context& context) {
+  const store::Run database = store::Run::open(run);
+  const std::filesystem::path folder = std::filesystem::is_directory(run) ? run : run.parent_path();
+  report::RunReport report;
+  report.title = std::filesystem::weakly_canonical(folder).filename().string();
+  Numbers numbers;
+  for (const store::Fragment& stored : database.fragments()) {
+    numbers[stored.name] = report.fragments.size();
+    report::ReportFragment fragment;
+    fragment.name = stored.name;
+    fragment.path = stored.path;
+    fragment.faces = static_cast<std::size_t>(std::max<std::int64_t>(0, stored.faces));
+    fragment.diameter = stored.diameter;
+    if (stored.state == store::FragmentState::Bad)
+      fragment.reason = "its file cannot be used: " + stored.error;
+    report.fragments.push_back(std::move(fragment));
+  }
+  add_pairs(report, database, numbers, listed);
+  const std::filesystem::path assembly = folder / kAssemblyName;
+  const bool assembled = std::filesystem::exists(assembly);
+  if (assembled) AssemblyReader(assembly, report, numbers).read();
+  add_reasons(report, assembled);
+  add_parameters(report, database, folder);
+  read_scans(report, console, context);
+  return report;
+}
+
+}  // namespace rejoin::cli

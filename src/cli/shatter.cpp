@@ -1,0 +1,112 @@
+/// rejoin shatter
+#include "shatter/shatter.hpp"
+
+#include <fmt/core.h>
+
+#include <filesystem>
+
+#include "cli/arguments.hpp"
+#include "cli/command.hpp"
+#include "cli/json_values.hpp"
+#include "core/files.hpp"
+#include "core/version.hpp"
+#include "mesh/load.hpp"
+#include "mesh/save.hpp"
+
+namespace rejoin::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string file_name(std::size_t number) {
+  return fmt::format("fragment_{:02}.ply", number);
+}
+
+ordered_json truth_json(const std::string& solid, const shatter::Options& options,
+                        const shatter::Shattered& shattered) {
+  ordered_json fragments = ordered_json::object();
+  for (std::size_t k = 0; k < shattered.pieces.size(); ++k) {
+    const shatter::Piece& piece = shattered.pieces[k];
+    fragments[file_name(k)] = {{"faces", piece.scan.faces.size()}, {"to_world", to_json(piece.to_world)}};
+  }
+  ordered_json joins = ordered_json::array();
+  for (const shatter::Contact& contact : shattered.contacts) {
+    joins.push_back({file_name(contact.a), file_name(contact.b), contact.area});
+  }
+  return {{"solid", std::filesystem::path(solid).filename().string()},
+          {"unit", "as in the file"},
+          {"diameter", shattered.diameter},
+          {"seed", options.seed},
+          {"roughness", options.roughness},
+          {"erode", options.erosion * shattered.diameter},
+          {"chips", options.chips},
+          {"noise", options.noise * shattered.diameter},
+          {"spacing", options.spacing * shattered.diameter},
+          {"version", kVersion},
+          {"fragments", fragments},
+          {"joins", joins}};
+}
+
+class ShatterCommand final : public Command {
+ public:
+  void define(CLI::App& app) override {
+    app.add_option("MESH", path_, "closed surface: ply, obj, stl, off, gltf, glb or drc")
+        ->required()
+        ->group("Input");
+    app.add_option("--out", out_, "write fragments and truth.json")
+        ->type_name("DIR")
+        ->required()
+        ->group("Output");
+    app.option_defaults()->group("Break (lengths in percent of the diameter)");
+    number(app, "--pieces", options_.pieces, 2, 10000, "how many fragments, 2 to 10000 (8)");
+    app.add_option("--seed", options_.seed, "another seed, another break (1)")->type_name("N");
+    number(app, "--roughness", options_.roughness, 0, 4, "of the breaks: 0 plane, 1 stone, up to 4 (1)");
+    number(app, "--erosion", erosion_, 0, 5, "radius of worn edges, 0 to 5 (0.1)");
+    number(app, "--chips", options_.chips, 0, 100, "mean number of chips off a fragment (3)");
+    number(app, "--noise", noise_, 0, 1, "deviation of the scanner, 0 to 1 (0.01)");
+    number(app, "--spacing", spacing_, 0.05, 5, "edge length of the meshes, 0.05 to 5 (0.4)");
+  }
+
+  ExitCode run(Console& console, Context& context) override {
+    require_writable_folder(out_);
+    options_.erosion = erosion_ / 100.0;
+    options_.noise = noise_ / 100.0;
+    options_.spacing = spacing_ / 100.0;
+    const mesh::Loaded loaded = mesh::load(path_);
+    for (const std::string& warning : loaded.warnings) console.warning(fmt::format("{}: {}", path_, warning));
+    const shatter::Shattered shattered = shatter::shatter(path_, loaded.mesh, options_, context);
+    console.end_progress();
+    if (shattered.cancelled) return kInterrupted;
+    const std::filesystem::path folder(out_);
+    for (std::size_t k = 0; k < shattered.pieces.size(); ++k) {
+      mesh::save(folder / file_name(k), shattered.pieces[k].scan);
+    }
+    const std::string truth = (folder / "truth.json").string();
+    write_file(truth, text_of(truth_json(path_, options_, shattered)));
+    console.result(fmt::format("{} fragments, {} joins\nwrote {}\n", shattered.pieces.size(),
+                               shattered.contacts.size(), truth));
+    return kDone;
+  }
+
+ private:
+  template <typename Number>
+  static void number(CLI::App& app, const std::string& name, Number& value, double low, double high,
+                     const std::string& description) {
+    app.add_option(name, value, description)->type_name("N")->check(in_range(low, high));
+  }
+
+  std::string path_;
+  std::string out_;
+  double erosion_ = 0.1;
+  double noise_ = 0.01;
+  double spacing_ = 0.4;
+  shatter::Options options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_shatter_command() {
+  return std::make_unique<ShatterCommand>();
+}
+
+}  // namespace rejoin::cli

@@ -1,0 +1,84 @@
+/// rejoin shatter and rejoin assemble as a whole, on a ball.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "../mesh/shapes.hpp"
+#include "mesh/load.hpp"
+#include "mesh/save.hpp"
+#include "run_program.hpp"
+
+namespace rejoin::cli::testing {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// A ball broken in three, in a folder of its own.
+class BrokenBall : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    mesh::save(folder_ / "ball.ply", mesh::test::icosphere(10.0F, 4));
+    const Finished broken = run({"shatter", folder_ / "ball.ply", "--pieces", "3", "--spacing", "2",
+                                 "--roughness", "2", "--chips", "0", "--out", scans_});
+    ASSERT_EQ(broken.exit_code, 0) << broken.err;
+  }
+
+  const TemporaryFolder folder_;
+  const std::string scans_ = folder_ / "scans";
+  const std::string json_ = folder_ / "assembly.json";
+};
+
+TEST_F(BrokenBall, ShatterWritesItsTruth) {
+  const ordered_json truth = ordered_json::parse(read_file(scans_ + "/truth.json"));
+  EXPECT_EQ(truth["fragments"].size(), 3U);
+  EXPECT_GE(truth["joins"].size(), 2U);
+  for (const auto& [name, fragment] : truth["fragments"].items()) {
+    EXPECT_EQ(mesh::load(scans_ + "/" + name).mesh.faces.size(), fragment["faces"]);
+    EXPECT_EQ(fragment["to_world"].size(), 4U);
+  }
+}
+
+TEST_F(BrokenBall, AssembleOfAFolderMatchesAndPutsItTogether) {
+  const std::string out = folder_ / "out";
+  const Finished finished = run({"assemble", scans_, "--json", json_, "--out", out});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  const ordered_json result = ordered_json::parse(read_file(json_));
+  EXPECT_EQ(result["schema"], "rejoin.assembly/1");
+  ASSERT_EQ(result["fragments"].size(), 3U);
+  EXPECT_TRUE(result["unplaced"].empty());
+  for (const char* file : {"/assembled.glb", "/assembled.ply", "/assembled.mlp", "/assembled.png",
+                           "/cloudcompare/fragment_00.ply.txt", "/run/pairs.csv"}) {
+    EXPECT_TRUE(std::filesystem::exists(out + file)) << file;
+  }
+  // The glb's named nodes carry the transforms; the ply has all fragments' faces.
+  std::size_t faces = 0;
+  for (const auto& [name, fragment] : result["fragments"].items()) {
+    faces += mesh::load(scans_ + "/" + name).mesh.faces.size();
+    EXPECT_NE(read_file(out + "/assembled.glb").find(name), std::string::npos);
+  }
+  EXPECT_EQ(mesh::load(out + "/assembled.ply").mesh.faces.size(), faces);
+
+  // The run that was kept is used again, and pairs that must not join stay apart.
+  const std::string wishes = folder_ / "wishes.json";
+  write_file(
+      wishes,
+      R"({"must_not_join": [["fragment_00.ply", "fragment_01.ply"], ["fragment_00.ply", "fragment_02.ply"]]})");
+  const Finished again = run({"assemble", out + "/run", "--json", json_, "--constraints", wishes});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  const ordered_json apart = ordered_json::parse(read_file(json_));
+  EXPECT_EQ(apart["unplaced"], ordered_json({"fragment_00.ply"}));
+  EXPECT_TRUE(apart["fragments"]["fragment_00.ply"]["pose"].is_null());
+  EXPECT_FALSE(apart["fragments"]["fragment_00.ply"]["reason"].get<std::string>().empty());
+}
+
+TEST_F(BrokenBall, AFolderWithoutScansOrARunIsRefused) {
+  std::filesystem::create_directory(folder_ / "empty");
+  const Finished finished = run({"assemble", folder_ / "empty", "--json", json_});
+  EXPECT_EQ(finished.exit_code, 1);
+  EXPECT_TRUE(is_one_line(finished.err)) << finished.err;
+  EXPECT_FALSE(std::filesystem::exists(json_));
+}
+
+}  // namespace
+}  // namespace rejoin::cli::testing

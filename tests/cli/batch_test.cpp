@@ -1,0 +1,230 @@
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "../match/planted_block.hpp"
+#include "core/random.hpp"
+#include "mesh/save.hpp"
+#include "run_program.hpp"
+
+namespace rejoin::cli::testing {
+namespace {
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr int kCells = 4;  // small: what is tested is the run, not the match
+
+/// Everything in a run's database but for seconds and paths, as text.
+std::string content(const std::string& run) {
+  SQLite::Database database(run + "/run.sqlite", SQLite::OPEN_READONLY);
+  std::ostringstream text;
+  const auto dump = [&](const char* query) {
+    SQLite::Statement rows(database, query);
+    while (rows.executeStep()) {
+      for (int k = 0; k < rows.getColumnCount(); ++k) text << rows.getColumn(k).getString() << '|';
+      text << '\n';
+    }
+  };
+  dump("SELECT version, parameters, seed FROM run");
+  dump("SELECT id, name, hash, faces, diameter, state, error FROM fragment ORDER BY id");
+  dump("SELECT a, b, stage, evidence, score, verdict, error, result FROM pair ORDER BY a, b");
+  dump("SELECT * FROM candidate ORDER BY a, b, rank");
+  return text.str();
+}
+
+int pairs_in(const std::string& run) {
+  return SQLite::Database(run + "/run.sqlite", SQLite::OPEN_READONLY)
+      .execAndGet("SELECT count(*) FROM pair")
+      .getInt();
+}
+
+void expect_whole(const std::string& run) {
+  SQLite::Database database(run + "/run.sqlite", SQLite::OPEN_READONLY);
+  EXPECT_EQ(database.execAndGet("PRAGMA integrity_check").getString(), "ok");
+  EXPECT_EQ(database.execAndGet("SELECT count(*) FROM pragma_foreign_key_check").getInt(), 0);
+}
+
+/// Three pieces of two blocks, and the run of them that nobody disturbed.
+class Batch : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    home_ = new TemporaryFolder;
+    make_scans(scans());
+    const auto begin = std::chrono::steady_clock::now();
+    const Finished finished = run({"batch", scans(), "--out", *home_ / "undisturbed", "--threads", "1"});
+    seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    ASSERT_EQ(finished.exit_code, 0) << finished.err;
+    reference_ = content(*home_ / "undisturbed");
+    table_ = read_file(*home_ / "undisturbed/pairs.csv");
+  }
+  static void TearDownTestSuite() {
+    delete home_;
+    home_ = nullptr;
+  }
+
+  static std::string scans() { return *home_ / "scans"; }
+
+  static void make_scans(const std::string& folder) {
+    fs::create_directories(folder);
+    const auto first = match::testing::planted_pair(7, kCells);
+    const auto second = match::testing::planted_pair(8, kCells);
+    mesh::save(folder + "/a7.ply", first.a);
+    mesh::save(folder + "/b7.ply", first.b);
+    mesh::save(folder + "/a8.ply", second.a);
+    write_file(folder + "/truth.json", "{}");
+  }
+
+  static TemporaryFolder* home_;
+  static double seconds_;
+  static std::string reference_;
+  static std::string table_;
+  const TemporaryFolder folder_;
+  const std::string run_ = folder_ / "run";
+};
+TemporaryFolder* Batch::home_ = nullptr;
+double Batch::seconds_ = 0;
+std::string Batch::reference_;
+std::string Batch::table_;
+
+TEST_F(Batch, EveryPairIsDoneAndRanked) {
+  EXPECT_EQ(pairs_in(*home_ / "undisturbed"), 3);
+  EXPECT_EQ(table_.substr(0, table_.find('\n')).rfind("a,b,score,verdict", 0), 0U);
+  EXPECT_EQ(std::count(table_.begin(), table_.end(), '\n'), 4);
+  EXPECT_EQ(table_.find("truth"), std::string::npos);
+}
+
+TEST_F(Batch, NumberOfThreadsChangesNothing) {
+  ASSERT_EQ(run({"batch", scans(), "--out", run_, "--threads", "3"}).exit_code, 0);
+  EXPECT_EQ(content(run_), reference_);
+  EXPECT_EQ(read_file(run_ + "/pairs.csv"), table_);
+}
+
+TEST_F(Batch, KilledTwentyTimesAndResumedIsAsUndisturbed) {
+  Random random(20);
+  int kills = 0;
+  int runs = 0;
+  while (kills < 20) {
+    const std::string place = folder_ / std::to_string(runs++);
+    for (bool ended = false; !ended && kills < 20;) {
+      Running program({"batch", scans(), "--out", place, "--threads", "2"});
+      std::this_thread::sleep_for(std::chrono::duration<double>(random.uniform(0.0, 0.5 * seconds_)));
+      program.kill_now();
+      const Finished finished = program.finish();
+      ended = finished.exit_code == 0;
+      kills += ended ? 0 : 1;
+    }
+    ASSERT_EQ(run({"batch", scans(), "--out", place, "--threads", "2"}).exit_code, 0);
+    expect_whole(place);
+    EXPECT_EQ(content(place), reference_) << "after " << kills << " kills";
+  }
+}
+
+TEST_F(Batch, SecondRunDoesNothing) {
+  fs::copy(*home_ / "undisturbed", run_, fs::copy_options::recursive);
+  const Finished again = run({"batch", scans(), "--out", run_});
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_NE(again.out.find("0 of them now"), std::string::npos) << again.out;
+}
+
+TEST_F(Batch, BadScanIsReportedAndTheRestGoesOn) {
+  make_scans(folder_ / "scans");
+  write_file(folder_ / "scans/c.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 1000\n");
+  const Finished finished = run({"batch", folder_ / "scans", "--out", run_});
+  EXPECT_EQ(finished.exit_code, 1);
+  EXPECT_NE(finished.err.find("c.ply"), std::string::npos);
+  SQLite::Database database(run_ + "/run.sqlite", SQLite::OPEN_READONLY);
+  EXPECT_EQ(database.execAndGet("SELECT count(*) FROM pair WHERE stage = 'match'").getInt(), 3);
+  EXPECT_EQ(database.execAndGet("SELECT count(*) FROM pair WHERE stage = 'failed'").getInt(), 3);
+  EXPECT_EQ(run({"batch", folder_ / "scans", "--out", run_}).exit_code, 1) << "still bad";
+
+  fs::copy_file(folder_ / "scans/a7.ply", folder_ / "scans/c.ply", fs::copy_options::overwrite_existing);
+  const Finished mended = run({"batch", folder_ / "scans", "--out", run_});
+  EXPECT_EQ(mended.exit_code, 0) << mended.err;
+  EXPECT_NE(mended.out.find("6 of 6 pairs done, 3 of them now"), std::string::npos) << mended.out;
+}
+
+TEST_F(Batch, ChangedScanAndChangedParametersAreDoneAgain) {
+  fs::copy(*home_ / "undisturbed", run_, fs::copy_options::recursive);
+  make_scans(folder_ / "scans");
+  fs::copy_file(folder_ / "scans/b7.ply", folder_ / "scans/a8.ply", fs::copy_options::overwrite_existing);
+  const Finished changed = run({"batch", folder_ / "scans", "--out", run_});
+  EXPECT_NE(changed.out.find("3 of 3 pairs done, 2 of them now"), std::string::npos) << changed.out;
+  EXPECT_NE(changed.err.find("a8.ply"), std::string::npos);
+  const Finished seeded = run({"batch", folder_ / "scans", "--out", run_, "--seed", "2"});
+  EXPECT_NE(seeded.out.find("3 of 3 pairs done, 3 of them now"), std::string::npos) << seeded.out;
+  EXPECT_NE(seeded.err.find("other parameters"), std::string::npos);
+}
+
+TEST_F(Batch, ShardsMergedAreTheWhole) {
+  std::vector<std::string> merge = {"merge", "--out", run_};
+  for (const char* shard : {"1/3", "2/3", "3/3"}) {
+    const std::string place = folder_ / std::string(1, shard[0]);
+    ASSERT_EQ(run({"batch", scans(), "--out", place, "--shard", shard}).exit_code, 0);
+    merge.push_back(place);
+  }
+  ASSERT_EQ(run(merge).exit_code, 0);
+  EXPECT_EQ(content(run_), reference_);
+  EXPECT_EQ(read_file(run_ + "/pairs.csv"), table_);
+  EXPECT_EQ(run({"batch", scans(), "--out", folder_ / "1", "--shard", "2/3"}).exit_code, 1)
+      << "holds shard 1/3";
+}
+
+TEST_F(Batch, JsonLinesAreValidAndCountUp) {
+  const Finished finished = run({"batch", scans(), "--out", run_, "--json"});
+  ASSERT_EQ(finished.exit_code, 0);
+  std::istringstream lines(finished.out);
+  std::vector<json> events;
+  for (std::string line; std::getline(lines, line);) events.push_back(json::parse(line));
+  ASSERT_EQ(events.size(), 1U + 3U + 3U + 1U);
+  EXPECT_EQ(events.front()["event"], "start");
+  EXPECT_EQ(events.back()["event"], "end");
+  int done = 0;
+  for (const json& event : events) {
+    EXPECT_GE(event["done"], done);
+    done = event["done"];
+    EXPECT_EQ(event["total"], 3);
+  }
+  EXPECT_EQ(done, 3);
+}
+
+TEST_F(Batch, InterruptKeepsWhatIsDoneAndSaysHowToGoOn) {
+  Running program({"batch", scans(), "--out", run_, "--threads", "1", "--json"});
+  ASSERT_TRUE(program.wait_for_stdout("\"event\":\"pair\""));
+  program.interrupt();
+  const Finished finished = program.finish();
+  ASSERT_TRUE(finished.exit_code == 130 || pairs_in(run_) == 3) << finished.exit_code << finished.err;
+  EXPECT_GE(pairs_in(run_), 1);
+  EXPECT_TRUE(fs::exists(run_ + "/pairs.csv"));
+  ASSERT_EQ(run({"batch", scans(), "--out", run_}).exit_code, 0);
+  EXPECT_EQ(content(run_), reference_);
+}
+
+TEST_F(Batch, FullDiskIsToldAndNothingDoneIsLost) {
+  const std::string program =
+      "ulimit -f 40; trap \"\" XFSZ; exec \"$0\" batch \"$1\" --out \"$2\" --threads 1";
+  const std::string command =
+      "bash -c '" + program + "' " REJOIN_PROGRAM " " + scans() + " " + run_ + " 2> " + (folder_ / "err");
+  EXPECT_NE(std::system(command.c_str()), 0);
+  EXPECT_NE(read_file(folder_ / "err").find("space"), std::string::npos) << read_file(folder_ / "err");
+  expect_whole(run_);
+  ASSERT_EQ(run({"batch", scans(), "--out", run_}).exit_code, 0);
+  EXPECT_EQ(content(run_), reference_);
+}
+
+TEST_F(Batch, WrongUseIsToldBeforeAnythingIsWritten) {
+  for (const char* shard : {"0/8", "9/8", "1", "1/", "/8", "1/8x", "-1/8"}) {
+    const std::vector<std::string> words = {"batch", scans(), "--out", run_, std::string("--shard=") + shard};
+    EXPECT_EQ(run(words).exit_code, 2) << shard;
+  }
+  EXPECT_EQ(run({"batch", folder_ / "nowhere", "--out", run_}).exit_code, 1);
+  EXPECT_FALSE(fs::exists(run_));
+}
+
+}  // namespace
+}  // namespace rejoin::cli::testing

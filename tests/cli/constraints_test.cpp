@@ -1,0 +1,89 @@
+/// The file of rejoin assemble --constraints, good and hostile.
+#include "cli/assemble_constraints.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "run_program.hpp"
+
+namespace rejoin::cli::testing {
+namespace {
+
+const std::vector<std::string> kNames{"a.ply", "b \"x\".ply", "c.ply"};
+
+assembly::Constraints read(const std::string& content) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "wishes.json";
+  write_file(path, content);
+  return read_constraints(path, kNames);
+}
+
+TEST(ReadConstraints, FindsPairsAndPosesByName) {
+  const assembly::Constraints constraints =
+      read(R"({"must_join": [["c.ply", "a.ply"]], "must_not_join": [["a.ply", "b \"x\".ply"]],
+               "poses": {"c.ply": [[0, -1, 0, 5], [1, 0, 0, 6], [0, 0, 1, 7], [0, 0, 0, 1]]}})");
+  ASSERT_EQ(constraints.must_join.size(), 1U);
+  EXPECT_EQ(constraints.must_join[0], (std::pair<std::size_t, std::size_t>(0, 2)));
+  ASSERT_EQ(constraints.must_not_join.size(), 1U);
+  EXPECT_EQ(constraints.must_not_join[0], (std::pair<std::size_t, std::size_t>(0, 1)));
+  ASSERT_EQ(constraints.pinned.size(), 1U);
+  EXPECT_EQ(constraints.pinned[0].first, 2U);
+  EXPECT_EQ(constraints.pinned[0].second({1, 0, 0}), glm::dvec3(5, 7, 7));
+}
+
+TEST(ReadConstraints, AnEmptyObjectAsksForNothing) {
+  const assembly::Constraints constraints = read("{}");
+  EXPECT_TRUE(constraints.must_join.empty() && constraints.must_not_join.empty() &&
+              constraints.pinned.empty());
+}
+
+struct Hostile {
+  const char* name;
+  const char* content;
+  const char* says;  ///< part of the message
+};
+
+class HostileConstraints : public ::testing::TestWithParam<Hostile> {};
+
+TEST_P(HostileConstraints, AreRefusedWithFileAndPlace) {
+  try {
+    read(GetParam().content);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("wishes.json"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find(GetParam().says), std::string::npos) << error.what();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Files, HostileConstraints,
+    ::testing::Values(
+        Hostile{"Empty", "", "no JSON"}, Hostile{"CutShort", R"({"must_join": [["a.ply")", "no JSON"},
+        Hostile{"List", "[]", "no JSON object"}, Hostile{"Number", "7", "no JSON object"},
+        Hostile{"UnknownKey", R"({"mustjoin": []})", "knows no \"mustjoin\""},
+        Hostile{"PairsAreText", R"({"must_join": "a.ply"})", "no list of pairs"},
+        Hostile{"PairOfThree", R"({"must_join": [["a.ply", "c.ply", "a.ply"]]})",
+                "\"must_join\"[0] is no pair"},
+        Hostile{"NameIsANumber", R"({"must_join": [["a.ply", 3]]})", "\"must_join\"[0] is no name"},
+        Hostile{"Stranger", R"({"must_not_join": [["a.ply", "c.ply"], ["a.ply", "z.ply"]]})",
+                "\"must_not_join\"[1]: there is no fragment \"z.ply\""},
+        Hostile{"WithItself", R"({"must_join": [["a.ply", "a.ply"]]})", "same fragment twice"},
+        Hostile{"Both", R"({"must_join": [["a.ply", "c.ply"]], "must_not_join": [["c.ply", "a.ply"]]})",
+                "must and must not join"},
+        Hostile{"PosesAreAList", R"({"poses": []})", "no object of names"},
+        Hostile{"PoseOfThreeRows", R"({"poses": {"a.ply": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]}})",
+                "no 4 x 4"},
+        Hostile{"MirroringPose",
+                R"({"poses": {"a.ply": [[-1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}})",
+                "no 4 x 4"},
+        Hostile{"HugeNumber",
+                R"({"poses": {"a.ply": [[1e999, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}})",
+                "wishes.json"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST(ReadConstraints, AMissingFileIsAnIoError) {
+  EXPECT_THROW(read_constraints("/nowhere/wishes.json", kNames), IoError);
+}
+
+}  // namespace
+}  // namespace rejoin::cli::testing

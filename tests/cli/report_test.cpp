@@ -1,0 +1,119 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "planted_files.hpp"
+#include "store/run.hpp"
+
+namespace rejoin::cli::testing {
+namespace {
+
+using nlohmann::json;
+
+/// The database of a run over the planted pair and a scan that is gone.
+struct PlantedRun {
+  PlantedRun() {
+    std::filesystem::create_directories(folder);
+    const std::string gone = files.folder / "gone.ply";
+    store::Run run = store::Run::write(folder);
+    run.begin({"0.1.0", R"({"resolution": 128})", 7},
+              {fragment("a.ply", files.a), fragment("b.ply", files.b), fragment("gone.ply", gone)});
+    store::Pair pair;
+    const auto list = run.fragments();
+    pair.a = list[0].id;
+    pair.b = list[1].id;
+    pair.stage = store::Stage::Match;
+    pair.score = 0.75;
+    pair.verdict = "join";
+    pair.result = "{}";
+    store::Candidate candidate;
+    candidate.score = 0.75;
+    candidate.pose = files.pair.truth;
+    candidate.gap_median = 0.125;
+    run.save(pair, {candidate});
+  }
+
+  static store::Fragment fragment(const std::string& name, const std::string& path) {
+    store::Fragment made;
+    made.name = name;
+    made.path = path;
+    made.hash = name;
+    return made;
+  }
+
+  void assemble(const std::string& text) const { write_file(folder + "/assembly.json", text); }
+
+  const PlantedFiles files;
+  const std::string folder = files.folder / "run";
+  const std::string page = folder + "/report.html";
+};
+
+json data_of(const std::string& html) {
+  const std::string open = "<script type=\"application/json\" id=\"report\">";
+  const std::size_t begin = html.find(open) + open.size();
+  return json::parse(html.substr(begin, html.find("</script>", begin) - begin));
+}
+
+TEST(Report, ShowsWhatTheAssemblyPlacedAndWhyNotTheRest) {
+  const PlantedRun run;
+  const json one = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
+  const json assembly = {{"schema", "rejoin.assembly/1"},
+                         {"fragments",
+                          {{"a.ply", {{"pose", one}, {"group", 0}, {"confidence", 0.5}}},
+                           {"b.ply", {{"pose", one}, {"group", 0}, {"confidence", 0.25}}}}},
+                         {"joins", {{{"a", "b.ply"}, {"b", "a.ply"}, {"score", 0.75}}}},
+                         {"unplaced", {"gone.ply"}}};
+  run.assemble(assembly.dump());
+  const Finished finished = testing::run({"report", run.folder, "--pictures", "1"});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_NE(finished.err.find("gone.ply"), std::string::npos) << "a scan that is gone is told";
+  const json data = data_of(read_file(run.page));
+  ASSERT_EQ(data["fragments"].size(), 3U);
+  EXPECT_EQ(data["fragments"][1]["confidence"], 0.25);
+  EXPECT_FALSE(data["fragments"][0]["mesh"].is_null());
+  EXPECT_TRUE(data["fragments"][2]["mesh"].is_null());
+  EXPECT_EQ(data["fragments"][2]["reason"], "compared with no other fragment");
+  EXPECT_EQ(data["warnings"].size(), 1U);
+  ASSERT_EQ(data["pairs"].size(), 1U);
+  EXPECT_EQ(data["pairs"][0]["used"], true);
+  EXPECT_EQ(data["pairs"][0]["figures"][0], json({"median gap", 0.125}));
+  EXPECT_GE(data["pairs"][0]["pictures"].size(), 4U);
+}
+
+TEST(Report, WithoutAnAssemblySaysSo) {
+  const PlantedRun run;
+  const Finished finished =
+      testing::run({"report", run.folder, "--pictures", "0", "--out", run.files.folder / "page.html"});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  const json data = data_of(read_file(run.files.folder / "page.html"));
+  EXPECT_TRUE(data["fragments"][0]["pose"].is_null());
+  EXPECT_NE(data["fragments"][0]["reason"].get<std::string>().find("rejoin assemble"), std::string::npos);
+}
+
+TEST(Report, RefusesAnAssemblyThatIsNoneOfThisRun) {
+  const PlantedRun run;
+  for (const char* text :
+       {"{", "[]", R"({"schema": 5})", R"({"schema": "rejoin.assembly/1"})",
+        R"({"schema": "rejoin.assembly/1", "fragments": {"other.ply": {"group": 0}}})",
+        R"({"schema": "rejoin.assembly/1", "fragments": {"a.ply": {"group": "x"}}})",
+        R"({"schema": "rejoin.assembly/1", "fragments": {"a.ply": {"group": 0, "pose": [[1]]}}})",
+        R"({"schema": "rejoin.assembly/1", "fragments": {}, "joins": [{"a": 1, "b": 2}]})"}) {
+    run.assemble(text);
+    const Finished finished = testing::run({"report", run.folder});
+    EXPECT_EQ(finished.exit_code, 1) << text;
+    EXPECT_NE(finished.err.find("assembly.json"), std::string::npos) << finished.err;
+    EXPECT_EQ(finished.err.find("internal error"), std::string::npos) << finished.err;
+    EXPECT_FALSE(std::filesystem::exists(run.page));
+  }
+}
+
+TEST(Report, OfAFolderThatIsNoRunNamesIt) {
+  const TemporaryFolder folder;
+  const Finished finished = testing::run({"report", folder / "nothing"});
+  EXPECT_EQ(finished.exit_code, 1);
+  EXPECT_NE(finished.err.find("nothing"), std::string::npos) << finished.err;
+  EXPECT_TRUE(is_one_line(finished.err)) << finished.err;
+}
+
+}  // namespace
+}  // namespace rejoin::cli::testing
