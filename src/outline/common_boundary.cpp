@@ -31,8 +31,7 @@ class Growth {
     for (long k = -kCore; k <= kCore; ++k) add_back({at_a + k, at_b + k, difference(at_a + k, at_b + k)});
     limit_ =
         options.epsilon * (a.step * static_cast<double>(a.size()) + b.step * static_cast<double>(b.size()));
-    const auto sizes = std::minmax(a.size(), b.size());
-    room_ = static_cast<long>(sizes.first);
+    room_ = static_cast<long>(std::min(a.size(), b.size()));
   }
 
   /// Enlarges while the cost allows.
