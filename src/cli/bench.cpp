@@ -15,6 +15,7 @@ namespace rejoin::cli {
 namespace {
 
 using Rows = std::vector<zbuffer::BenchmarkRow>;
+using Ratios = std::vector<zbuffer::BenchmarkRatio>;
 
 /// The processor's name as Linux tells it, with the number of cores.
 std::string machine() {
@@ -29,42 +30,58 @@ std::string machine() {
   return fmt::format("{}, {} cores", name, std::thread::hardware_concurrency());
 }
 
-/// What a row is compared with: our rasteriser on one thread at the same resolution; 0 if that was not
-/// measured.
-double baseline(const Rows& rows, int resolution) {
-  for (const zbuffer::BenchmarkRow& row : rows) {
-    if (row.backend == zbuffer::Backend::Raster && row.threads == 1 && row.resolution == resolution) {
-      return row.evaluations_per_second;
-    }
-  }
-  return 0.0;
-}
-
 std::string table(const Rows& rows) {
-  std::string text = fmt::format("{:<10} {:>7} {:>7} {:>8} {:>14} {:>8}  {}\n", "backend", "pixels", "faces",
-                                 "threads", "evaluations/s", "ratio", "renderer");
+  std::string text = fmt::format("{:<16} {:>6} {:>7} {:>7} {:>6} {:>13} {:>8}  {}\n", "backend", "pixels",
+                                 "faces", "threads", "batch", "evaluations/s", "/CPU s", "renderer");
   for (const zbuffer::BenchmarkRow& row : rows) {
-    const double base = baseline(rows, row.resolution);
-    text +=
-        fmt::format("{:<10} {:>7} {:>7} {:>8} {:>14.0f} {:>8}  {}\n", zbuffer::name_of(row.backend),
-                    row.resolution, row.faces, row.threads, row.evaluations_per_second,
-                    base > 0 ? fmt::format("{:.2f}", row.evaluations_per_second / base) : "-", row.renderer);
+    const auto backend = fmt::format("{} {}", zbuffer::name_of(row.backend), row.way);
+    const auto batch = row.batch > 0 ? std::to_string(row.batch) : "-";
+    text += fmt::format("{:<16} {:>6} {:>7} {:>7} {:>6} {:>13.0f} {:>8.0f}  {}\n", backend, row.resolution,
+                        row.faces, row.threads, batch, row.evaluations_per_second,
+                        row.evaluations_per_cpu_second, row.renderer);
   }
-  return text + "ratio: to the rasteriser on one thread at the same resolution\n";
+  return text;
 }
 
-std::string to_json(const Rows& rows) {
+std::string table(const Ratios& ratios) {
+  std::string text;
+  for (const zbuffer::BenchmarkRatio& ratio : ratios) {
+    text += fmt::format("{} / {}, {} pixels, {} faces: {:.2f}\n", ratio.of, ratio.to, ratio.resolution,
+                        ratio.faces, ratio.ratio);
+  }
+  return text;
+}
+
+std::string to_json(const Rows& rows, const Ratios& ratios) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const zbuffer::BenchmarkRow& row : rows) {
     list.push_back({{"backend", zbuffer::name_of(row.backend)},
+                    {"way", row.way},
                     {"resolution", row.resolution},
                     {"faces", row.faces},
                     {"threads", row.threads},
+                    {"batch", row.batch},
                     {"evaluations_per_second", row.evaluations_per_second},
+                    {"evaluations_per_cpu_second", row.evaluations_per_cpu_second},
                     {"renderer", row.renderer}});
   }
-  const nlohmann::ordered_json json = {{"schema", "rejoin.bench/1"}, {"machine", machine()}, {"rows", list}};
+  nlohmann::ordered_json compared = nlohmann::ordered_json::array();
+  for (const zbuffer::BenchmarkRatio& ratio : ratios) {
+    compared.push_back({{"of", ratio.of},
+                        {"to", ratio.to},
+                        {"resolution", ratio.resolution},
+                        {"faces", ratio.faces},
+                        {"ratio", ratio.ratio}});
+  }
+  const nlohmann::ordered_json json = {
+      {"schema", "rejoin.bench/1"}, {"machine", machine()}, {"rows", list}, {"ratios", compared}};
   return text_of(json);
+}
+
+/// \throws BackendError  with the reason why it cannot draw here
+void require_available(zbuffer::Backend backend) {
+  const mesh::Mesh least = zbuffer::bumpy_sphere(12, 1);
+  zbuffer::make_scorer(backend, least, least, {});
 }
 
 class BenchCommand final : public Command {
@@ -77,10 +94,20 @@ class BenchCommand final : public Command {
         ->type_name("N,N,...")
         ->delimiter(',')
         ->expected(1)
+        ->take_all()
         ->check(in_range(8, 2048));
     app.add_option("--faces", options_.faces, "faces a fragment (10000)")
-        ->type_name("N")
+        ->type_name("N,N,...")
+        ->delimiter(',')
+        ->expected(1)
+        ->take_all()
         ->check(in_range(12, 1e7));
+    app.add_option("--batch", options_.batches, "poses a call (grows until a call takes a while)")
+        ->type_name("N,N,...")
+        ->delimiter(',')
+        ->expected(1)
+        ->take_all()
+        ->check(in_range(1, 1 << 20));
     app.add_option("--seconds", options_.seconds_per_row, "measured time a row (0.5)")
         ->type_name("S")
         ->check(in_range(0.001, 60));
@@ -88,10 +115,14 @@ class BenchCommand final : public Command {
 
   ExitCode run(Console& console, Context& context) override {
     if (json_) require_writable_file(*json_);
-    if (backend_ != zbuffer::Backend::Auto) options_.backends = {backend_};
+    if (backend_ != zbuffer::Backend::Auto) {
+      require_available(backend_);
+      options_.backends = {backend_};
+    }
     const Rows rows = zbuffer::benchmark(options_, context);
-    if (json_) write_file(*json_, to_json(rows));
-    console.result(machine() + "\n" + table(rows));
+    const Ratios ratios = zbuffer::ratios_of(rows);
+    if (json_) write_file(*json_, to_json(rows, ratios));
+    console.result(machine() + "\n" + table(rows) + table(ratios));
     return context.cancelled() ? kInterrupted : kDone;
   }
 

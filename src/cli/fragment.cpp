@@ -2,8 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <chrono>
-
 #include "cli/interrupt.hpp"
 #include "core/error.hpp"
 #include "mesh/load.hpp"
@@ -12,10 +10,6 @@ namespace rejoin::cli {
 namespace {
 
 constexpr std::size_t kLeast = 4;  // faces or points; fewer enclose nothing
-
-double seconds_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
 
 mesh::Mesh load_scan(const std::string& path, Console& console) {
   mesh::Loaded loaded = mesh::load(path);
@@ -31,17 +25,24 @@ mesh::Mesh load_scan(const std::string& path, Console& console) {
 
 match::Fragment read_and_prepare(const std::string& path, Console& console, const Context& context) {
   const NothingToSave guard;
-  return match::prepare(path, load_scan(path, console), context);
+  std::vector<StageTime> stages;
+  Stopwatch clock(stages);
+  mesh::Mesh scan = load_scan(path, console);
+  clock.lap("load");
+  match::Fragment fragment = match::prepare(path, std::move(scan), context);
+  fragment.stages.insert(fragment.stages.begin(), stages.begin(), stages.end());
+  return fragment;
 }
 
 }  // namespace
 
 match::Fragment load_fragment(const std::string& path, Console& console, const Context& context) {
-  const auto begin = std::chrono::steady_clock::now();
   match::Fragment fragment = read_and_prepare(path, console, context);
+  double seconds = 0;
+  for (const StageTime& stage : fragment.stages) seconds += stage.seconds;
   console.detail(fmt::format("{}: {} points, {} faces, diameter {:.4g}; made ready in {:.2f} s", path,
                              fragment.scan.vertices.size(), fragment.surface.faces.size(), fragment.diameter,
-                             seconds_since(begin)));
+                             seconds));
   return fragment;
 }
 

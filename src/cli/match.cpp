@@ -82,7 +82,7 @@ class MatchCommand final : public Command {
     console.end_progress();
     for (const std::string& warning : result.warnings) console.warning(warning);
     if (result.cancelled) console.warning("interrupted; what follows is the best so far");
-    tell_times(console, result);
+    tell_times(console, a, b, result);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     if (json_) write_file(*json_, match_json(a, b, options, result, seconds.count()));
     console.result(summary(result));
@@ -107,9 +107,10 @@ class MatchCommand final : public Command {
     for (const std::filesystem::path& file : files) console.result(fmt::format("wrote {}\n", file.string()));
   }
 
-  static void tell_times(Console& console, const match::Result& result) {
-    for (const auto& [stage, seconds] : result.stage_seconds) {
-      console.detail(fmt::format("{:<12} {:8.2f} s", stage, seconds));
+  static void tell_times(Console& console, const match::Fragment& a, const match::Fragment& b,
+                         const match::Result& result) {
+    for (const StageTime& time : stage_times(a, b, result)) {
+      console.detail(fmt::format("{:<12} {:8.2f} s", time.stage, time.seconds));
     }
     console.detail(fmt::format("{} evaluations by {} ({})", result.evaluations,
                                zbuffer::name_of(result.backend), result.renderer));

@@ -29,7 +29,14 @@ ordered_json fragment_json(const match::Fragment& fragment) {
   return {{"path", fragment.path}, {"faces", fragment.surface.faces.size()}, {"diameter", fragment.diameter}};
 }
 
-ordered_json search_json(const match::Options& options, const match::Result& result, double seconds) {
+ordered_json times_json(const std::vector<StageTime>& times) {
+  ordered_json json = ordered_json::array();
+  for (const StageTime& time : times) json.push_back({{"stage", time.stage}, {"seconds", time.seconds}});
+  return json;
+}
+
+ordered_json search_json(const match::Options& options, const match::Result& result,
+                         const std::vector<StageTime>& times, double seconds) {
   return {{"method", options.search == match::Search::Esa ? "esa" : "sweep"},
           {"constraint", options.constraint == match::Constraint::None        ? "none"
                          : options.constraint == match::Constraint::Direction ? "direction"
@@ -46,6 +53,7 @@ ordered_json search_json(const match::Options& options, const match::Result& res
           {"seed", options.seed},
           {"evaluations", result.evaluations},
           {"seconds", seconds},
+          {"stages", times_json(times)},
           {"interrupted", result.cancelled}};
 }
 
@@ -61,6 +69,16 @@ const char* name_of(match::Verdict verdict) {
       break;
   }
   return "no join";
+}
+
+std::vector<StageTime> stage_times(const match::Fragment& a, const match::Fragment& b,
+                                   const match::Result& result) {
+  std::vector<StageTime> times;
+  for (const auto& [fragment, name] : {std::pair{&a, " a"}, std::pair{&b, " b"}}) {
+    for (const StageTime& time : fragment->stages) times.push_back({time.stage + name, time.seconds});
+  }
+  times.insert(times.end(), result.stages.begin(), result.stages.end());
+  return times;
 }
 
 std::string match_json(const match::Fragment& a, const match::Fragment& b, const match::Options& options,
@@ -83,7 +101,7 @@ std::string match_json(const match::Fragment& a, const match::Fragment& b, const
       {"verdict", name_of(result.verdict)},
       {"error", error_json(found ? result.candidates[0].error : match::JointError())},
       {"candidates", candidates},
-      {"search", search_json(options, result, seconds)},
+      {"search", search_json(options, result, stage_times(a, b, result), seconds)},
       {"backend", {{"name", zbuffer::name_of(result.backend)}, {"renderer", result.renderer}}},
       {"warnings", result.warnings},
       {"version", kVersion}};

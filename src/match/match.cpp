@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 
 #include "core/parallel.hpp"
+#include "core/stopwatch.hpp"
 #include "match/align.hpp"
 #include "match/esa_search.hpp"
 #include "match/sweep.hpp"
@@ -27,20 +27,6 @@ struct Hypothesis {
   double strength = 0;
   int facet_a = -1;
   int facet_b = -1;
-};
-
-class Clock {
- public:
-  explicit Clock(Result& result) : result_(result) {}
-  void lap(const std::string& stage) {
-    const auto now = std::chrono::steady_clock::now();
-    result_.stage_seconds[stage] += std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-  }
-
- private:
-  Result& result_;
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
 /// Facets that face one of the directions, or the one that comes closest.
@@ -165,7 +151,7 @@ std::vector<Hypothesis> distinct(const std::vector<Hypothesis>& list, const Frag
 
 Result match(const Fragment& a, const Fragment& b, const Options& options, const Context& context) {
   Result result;
-  Clock clock(result);
+  Stopwatch clock(result.stages);
   Verifier verifier(a, b, options);
   result.backend = verifier.backend();
   result.renderer = verifier.renderer();

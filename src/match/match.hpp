@@ -3,13 +3,13 @@
 
 #include <cstdint>
 #include <limits>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/context.hpp"
 #include "core/rigid.hpp"
+#include "core/stopwatch.hpp"
 #include "mesh/facets.hpp"
 #include "mesh/mesh.hpp"
 #include "zbuffer/scorer.hpp"
@@ -42,12 +42,13 @@ struct Options {
 /// A fragment made ready: surface, level of detail, facets.
 struct Fragment {
   std::string path;
-  mesh::Mesh scan;            ///< as loaded (after clean-up)
-  mesh::Mesh surface;         ///< triangles at full resolution: the scan, or the surface of its cloud
-  mesh::Mesh coarse;          ///< a level of detail for depth maps: at most 40,000 faces
-  mesh::Segmentation facets;  ///< of `surface`
-  double diameter = 0;        ///< mesh units
-  double resolution = 0;      ///< sample spacing, mesh units
+  mesh::Mesh scan;                ///< as loaded (after clean-up)
+  mesh::Mesh surface;             ///< triangles at full resolution: the scan, or the surface of its cloud
+  mesh::Mesh coarse;              ///< a level of detail for depth maps: at most 40,000 faces
+  mesh::Segmentation facets;      ///< of `surface`
+  double diameter = 0;            ///< mesh units
+  double resolution = 0;          ///< sample spacing, mesh units
+  std::vector<StageTime> stages;  ///< surface (of a cloud), coarse, facets; load where a file was read
 };
 
 /// \param scan  what load() gave
@@ -84,8 +85,8 @@ struct Result {
   std::vector<Candidate> candidates;  ///< best first, distinct; empty only if nothing could be tried
   Verdict verdict = Verdict::NoJoin;
   long evaluations = 0;
-  bool cancelled = false;  ///< stopped before the end; what was found is here
-  std::map<std::string, double> stage_seconds;
+  bool cancelled = false;                          ///< stopped before the end; what was found is here
+  std::vector<StageTime> stages;                   ///< prepare (of the pair), search, align, verify
   std::vector<std::vector<Progress>> convergence;  ///< one a chain (ESA)
   zbuffer::Backend backend = zbuffer::Backend::Auto;
   std::string renderer;

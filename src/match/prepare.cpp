@@ -16,16 +16,20 @@ Fragment prepare(std::string path, mesh::Mesh scan, const Context& context) {
   Fragment fragment;
   fragment.path = std::move(path);
   fragment.scan = std::move(scan);
+  Stopwatch clock(fragment.stages);
   fragment.surface = fragment.scan.is_cloud() ? mesh::surface_of_cloud(fragment.scan) : fragment.scan;
   if (fragment.surface.faces.empty()) {
     throw InputError(fragment.path, "no surface could be laid through its points", "scan it more densely");
   }
+  clock.lap("surface");
   fragment.coarse = fragment.surface.faces.size() > kCoarseFaces
                         ? mesh::simplify(fragment.surface, kCoarseFaces)
                         : fragment.surface;
+  clock.lap("coarse");
   fragment.diameter = mesh::diameter(fragment.surface);
   fragment.resolution = mesh::resolution(fragment.surface);
   fragment.facets = mesh::segment(fragment.surface);
+  clock.lap("facets");
   context.report("prepare " + fragment.path, 1.0);
   return fragment;
 }

@@ -4,31 +4,37 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <map>
+#include <span>
 #include <tuple>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/random.hpp"
 #include "core/rigid.hpp"
+#include "zbuffer/gl/gl_scorer.hpp"
 
 namespace rejoin::zbuffer {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// What stays the same while one row after the other is measured.
 struct Workload {
   const mesh::Mesh& a;
   const mesh::Mesh& b;
-  std::vector<ViewPair> poses;
+  std::span<const ViewPair> poses;
 };
 
 /// A row that is still to be measured.
 struct Plan {
   Backend backend;
+  gl::Path path;  ///< of GL
+  std::size_t faces;
   int resolution;
   int threads;
+  std::size_t batch;
 };
 
 glm::mat3 random_rotation(Random& random) {
@@ -62,38 +68,87 @@ std::vector<Backend> chosen_backends(const BenchmarkOptions& options) {
   return backends;
 }
 
-std::vector<Plan> plans_of(const BenchmarkOptions& options) {
+std::vector<int> chosen_threads(const BenchmarkOptions& options) {
   std::vector<int> threads = options.threads;
   if (threads.empty()) threads = {1, thread_count()};
   std::ranges::sort(threads);
   threads.erase(std::unique(threads.begin(), threads.end()), threads.end());
+  return threads;
+}
+
+std::vector<Plan> plans_of(const BenchmarkOptions& options) {
+  const std::vector<int> threads = chosen_threads(options);
+  const auto batches = options.batches.empty() ? std::vector<std::size_t>{0} : options.batches;
+  const bool own_mesh = options.a != nullptr && options.b != nullptr;
+  const auto faces = own_mesh ? std::vector<std::size_t>{0} : options.faces;
   std::vector<Plan> plans;
+  const auto add = [&](const Plan& plan) {
+    for (const std::size_t batch : batches) {
+      plans.push_back(plan);
+      plans.back().batch = batch;
+    }
+  };
   for (const Backend backend : chosen_backends(options)) {
-    for (const int resolution : options.resolutions) {
-      for (const int count : threads) {
-        if (!is_gl(backend) || count == threads.back()) plans.push_back({backend, resolution, count});
+    for (const std::size_t count : faces) {
+      for (const int resolution : options.resolutions) {
+        if (is_gl(backend)) {
+          for (const gl::Path path : {gl::Path::Compute, gl::Path::Pipeline}) {
+            add({backend, path, count, resolution, threads.back(), 0});
+          }
+          continue;
+        }
+        for (const int used : threads) add({backend, gl::Path::Auto, count, resolution, used, 0});
       }
     }
   }
   return plans;
 }
 
-/// Poses a second; batches grow until one takes a tenth of the time, so that a call's overhead counts little.
-double measure(Scorer& scorer, const Workload& work, double seconds, const Context& context) {
+std::string way_of(const Plan& plan) {
+  if (!is_gl(plan.backend)) return {};
+  return plan.path == gl::Path::Pipeline ? "pipeline" : "compute";
+}
+
+std::unique_ptr<Scorer> scorer_of(const Plan& plan, const Workload& work) {
+  const ViewOptions view{.resolution = plan.resolution};
+  if (!is_gl(plan.backend)) return make_scorer(plan.backend, work.a, work.b, view);
+  return gl::make_gl_scorer(gl::shared_engine(plan.backend), plan.backend, work.a, work.b, view, plan.path);
+}
+
+struct Rates {
+  double a_second = 0;
+  double a_cpu_second = 0;
+};
+
+/// Without a fixed batch, batches grow until one takes a tenth of the time, so that a call's overhead counts
+/// little.
+Rates measure(Scorer& scorer, const Workload& work, const Plan& plan, double seconds,
+              const Context& context) {
   std::vector<PairScore> scores(work.poses.size());
-  std::size_t batch = 4;
-  scorer.score({work.poses.data(), batch}, {scores.data(), batch});
+  std::size_t next = 0;
+  const auto score = [&](std::size_t count) {
+    // Other poses at every call: a scorer may keep the maps of the last ones.
+    if (next + count > work.poses.size()) next = 0;
+    scorer.score(work.poses.subspan(next, count), std::span(scores).first(count));
+    next += count;
+  };
+  constexpr std::size_t kFew = 4;
+  std::size_t batch = plan.batch > 0 ? plan.batch : kFew;
+  score(std::min(batch, kFew));
   const auto start = Clock::now();
+  const std::clock_t cpu_start = std::clock();
   std::size_t done = 0;
   double passed = 0;
   while (passed < seconds && !context.cancelled()) {
     const double before = passed;
-    scorer.score({work.poses.data(), batch}, {scores.data(), batch});
+    score(batch);
     done += batch;
     passed = std::chrono::duration<double>(Clock::now() - start).count();
-    if (passed - before < seconds / 10) batch = std::min(2 * batch, work.poses.size());
+    if (plan.batch == 0 && passed - before < seconds / 10) batch = std::min(2 * batch, work.poses.size() / 4);
   }
-  return passed > 0 ? static_cast<double>(done) / passed : 0;
+  const double cpu = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
+  const auto rate = [done](double time) { return time > 0 ? static_cast<double>(done) / time : 0.0; };
+  return {rate(passed), rate(cpu)};
 }
 
 /// Corner (i, j) of a k x k grid on face 0 .. 5 of the cube -k .. k.
@@ -152,25 +207,83 @@ mesh::Mesh bumpy_sphere(std::size_t faces, std::uint64_t seed) {
 }
 
 std::vector<BenchmarkRow> benchmark(const BenchmarkOptions& options, const Context& context) {
-  const mesh::Mesh made_a = options.a == nullptr ? bumpy_sphere(options.faces, 1) : mesh::Mesh{};
-  const mesh::Mesh made_b = options.b == nullptr ? bumpy_sphere(options.faces, 2) : mesh::Mesh{};
-  const Workload work{options.a == nullptr ? made_a : *options.a, options.b == nullptr ? made_b : *options.b,
-                      random_poses(1024, options.seed)};
+  std::size_t most = 4096;
+  for (const std::size_t batch : options.batches) most = std::max(most, batch);
+  const std::vector<ViewPair> poses = random_poses(most, options.seed);
   const std::vector<Plan> plans = plans_of(options);
+  mesh::Mesh made_a;
+  mesh::Mesh made_b;
+  std::size_t made = 0;
   std::vector<BenchmarkRow> rows;
   for (std::size_t k = 0; k < plans.size() && !context.cancelled(); ++k) {
+    const Plan& plan = plans[k];
     context.report("bench", static_cast<double>(k) / static_cast<double>(plans.size()));
-    const ThreadLimit limit(plans[k].threads);
+    if (plan.faces != made) {
+      made_a = bumpy_sphere(plan.faces, 1);
+      made_b = bumpy_sphere(plan.faces, 2);
+      made = plan.faces;
+    }
+    const Workload work{options.a == nullptr ? made_a : *options.a,
+                        options.b == nullptr ? made_b : *options.b, poses};
+    const ThreadLimit limit(plan.threads);
     try {
-      const auto scorer = make_scorer(plans[k].backend, work.a, work.b, {.resolution = plans[k].resolution});
-      const double rate = measure(*scorer, work, options.seconds_per_row, context);
-      rows.push_back({plans[k].backend, scorer->renderer(), plans[k].resolution,
-                      (work.a.faces.size() + work.b.faces.size()) / 2, plans[k].threads, rate});
+      const auto scorer = scorer_of(plan, work);
+      const Rates rates = measure(*scorer, work, plan, options.seconds_per_row, context);
+      rows.push_back({plan.backend, way_of(plan), scorer->renderer(), plan.resolution,
+                      (work.a.faces.size() + work.b.faces.size()) / 2, plan.threads, plan.batch,
+                      rates.a_second, rates.a_cpu_second});
     } catch (const BackendError&) {
       continue;  // a backend that cannot draw here has no speed
     }
   }
   return rows;
+}
+
+namespace {
+
+struct Contender {
+  std::string name;
+  Backend backend;
+  std::string way;
+  int threads;
+};
+
+/// 0 if not measured.
+double rate_of(const std::vector<BenchmarkRow>& rows, const Contender& who, const BenchmarkRow& like) {
+  for (const BenchmarkRow& row : rows) {
+    if (row.backend == who.backend && row.way == who.way && row.threads == who.threads && row.batch == 0 &&
+        row.resolution == like.resolution && row.faces == like.faces) {
+      return row.evaluations_per_second;
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+
+std::vector<BenchmarkRatio> ratios_of(const std::vector<BenchmarkRow>& rows) {
+  int all = 1;
+  for (const BenchmarkRow& row : rows) all = std::max(all, row.threads);
+  const Contender one{"raster, 1 thread", Backend::Raster, "", 1};
+  const Contender many{"raster, " + std::to_string(all) + " threads", Backend::Raster, "", all};
+  std::vector<std::pair<Contender, Contender>> questions{
+      {one, {"raycast, 1 thread", Backend::RayCast, "", 1}}};
+  if (all > 1) questions.emplace_back(many, one);
+  for (const Backend backend : {Backend::OsMesa, Backend::Gpu}) {
+    for (const char* way : {"pipeline", "compute"}) {
+      questions.push_back({many, {std::string(name_of(backend)) + " " + way, backend, way, all}});
+    }
+  }
+  std::vector<BenchmarkRatio> ratios;
+  for (const auto& [of, to] : questions) {
+    for (const BenchmarkRow& row : rows) {
+      const bool is_to = row.backend == to.backend && row.way == to.way && row.threads == to.threads;
+      const double rate = is_to && row.batch == 0 ? rate_of(rows, of, row) : 0;
+      if (rate <= 0 || row.evaluations_per_second <= 0) continue;
+      ratios.push_back({of.name, to.name, row.resolution, row.faces, rate / row.evaluations_per_second});
+    }
+  }
+  return ratios;
 }
 
 }  // namespace rejoin::zbuffer

@@ -109,6 +109,11 @@ TEST(BadPlace, OutputsAreTestedBeforeTheScansAreRead) {
   expect_failure(run({"info", "--json", inside}), inside);
 }
 
+TEST(BadPlace, BackendThatIsMissingCannotBeMeasured) {
+  expect_failure(run({"bench", "--backend", "osmesa"}, {"REJOIN_OSMESA_LIBRARY=no/such/library.so"}),
+                 "no/such/library.so");
+}
+
 TEST(BadPlace, TheSameFileUnderAnotherNameIsWrongUse) {
   const TemporaryFolder folder;
   write_file(folder / "a.ply", kTetrahedron);

@@ -52,9 +52,10 @@ std::vector<std::string> keys(const ordered_json& object) {
   return names;
 }
 
-/// The text without the one value that may differ between two runs.
+/// The text without the values that may differ between two runs.
 std::string without_seconds(ordered_json result) {
   result["search"].erase("seconds");
+  result["search"].erase("stages");
   return result.dump();
 }
 
@@ -88,6 +89,22 @@ TEST_F(MatchCommand, WritesTheKeysOfTheSchema) {
   }
 }
 
+TEST_F(MatchCommand, TellsTheTimeOfEveryStage) {
+  const ordered_json search = result_of(quick({}))["search"];
+  std::vector<std::string> names;
+  double sum = 0.0;
+  for (const ordered_json& stage : search["stages"]) {
+    names.push_back(stage["stage"]);
+    EXPECT_GE(stage["seconds"], 0.0) << names.back();
+    sum += stage["seconds"].get<double>();
+  }
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"load a", "surface a", "coarse a", "facets a", "load b", "surface b",
+                                      "coarse b", "facets b", "prepare", "search", "align", "verify"}));
+  EXPECT_GT(sum, 0.0);
+  EXPECT_LE(sum, search["seconds"].get<double>());
+}
+
 TEST_F(MatchCommand, GivesTheSameBytesForAnyNumberOfThreadsAndAgain) {
   const std::string one = without_seconds(result_of(quick({"--threads", "1", "--seed", "5"})));
   EXPECT_EQ(one, without_seconds(result_of(quick({"--threads", "2", "--seed", "5"}))));
@@ -110,7 +127,9 @@ TEST_F(MatchCommand, QuietSaysNothing) {
 
 TEST_F(MatchCommand, VerboseTellsStageTimesOnStderr) {
   const Finished finished = run(quick({"--verbose"}));
-  EXPECT_NE(finished.err.find("evaluations"), std::string::npos);
+  for (const char* word : {"facets a", "load b", "search", "verify", "evaluations"}) {
+    EXPECT_NE(finished.err.find(word), std::string::npos) << word;
+  }
   EXPECT_EQ(finished.out.find("evaluations"), std::string::npos);
 }
 

@@ -56,6 +56,10 @@ class GlScorer : public Scorer {
                          "choose a smaller --resolution");
     }
     const bool compute = suits_compute(limits, surfaces_[0], surfaces_[1], options_.resolution);
+    if (path == Path::Compute && !compute) {
+      throw BackendError(engine_->context().subject(), "the driver cannot compute so many faces or pixels",
+                         "choose fewer, or let the fixed pipeline draw");
+    }
     if (path == Path::Pipeline || (path == Path::Auto && !compute)) {
       drawing_ = make_pipeline_drawing(*engine_, surfaces_[0], surfaces_[1], options_.resolution);
     } else {
