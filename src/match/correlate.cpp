@@ -1,7 +1,6 @@
 #include "match/correlate.hpp"
 
 #include <kiss_fft.h>
-#include <kiss_fftnd.h>
 
 #include <algorithm>
 #include <array>
@@ -19,17 +18,79 @@ struct Sums {
   float n, c, e1, e2, s1u, s1v, s2u, s2v;
 };
 
-/// Fills pixels, explained, score and tilt.
-void judge(const Sums& s, const CorrelateOptions& options, Agreement& a) {
+float explained_by(const Sums& s, const CorrelateOptions& options) {
   const float n = s.n;
   const float cov = s.c - (s.s1u * s.s2u + s.s1v * s.s2v) / n;
   const float var1 = std::max(0.0F, s.e1 - (s.s1u * s.s1u + s.s1v * s.s1v) / n);
   const float var2 = std::max(0.0F, s.e2 - (s.s2u * s.s2u + s.s2v * s.s2v) / n);
-  a.pixels = n;
-  a.explained = 2.0F * cov / (var1 + var2 + 2.0F * n * options.noise_slope * options.noise_slope);
-  a.score = std::atanh(std::clamp(a.explained, -0.98F, 0.98F)) * std::sqrt(n);
-  a.tilt = glm::vec2(s.s1u - s.s2u, s.s1v - s.s2v) / n;
+  return 2.0F * cov / (var1 + var2 + 2.0F * n * options.noise_slope * options.noise_slope);
 }
+
+float score_of(float explained, float pixels) {
+  return std::atanh(std::clamp(explained, -0.98F, 0.98F)) * std::sqrt(pixels);
+}
+
+/// Fills pixels, explained, score and tilt.
+void judge(const Sums& s, const CorrelateOptions& options, Agreement& a) {
+  a.pixels = s.n;
+  a.explained = explained_by(s, options);
+  a.score = score_of(a.explained, s.n);
+  a.tilt = glm::vec2(s.s1u - s.s2u, s.s1v - s.s2v) / s.n;
+}
+
+/// a * conj(b), without std::complex's care for infinities, which is slow.
+Complex times_conjugate(Complex a, Complex b) {
+  return {a.real() * b.real() + a.imag() * b.imag(), a.imag() * b.real() - a.real() * b.imag()};
+}
+
+/// x + i y
+Complex packed_of(Complex x, Complex y) {
+  return {x.real() - y.imag(), x.imag() + y.real()};
+}
+
+/// Complex transforms of one size, first along the columns, then along the rows, so that columns that are empty before and
+/// rows that nobody asks for after cost nothing.
+class Transform {
+ public:
+  Transform() = default;
+  Transform(int width, int height, bool inverse)
+      : width_(width),
+        height_(height),
+        along_columns_(kiss_fft_alloc(height, inverse ? 1 : 0, nullptr, nullptr)),
+        along_rows_(kiss_fft_alloc(width, inverse ? 1 : 0, nullptr, nullptr)) {}
+
+  /// \param columns  the others of `in` are zero
+  /// \param half     width x height, column by column, for row()
+  void columns(const Field& in, int columns, Field& half) const {
+    for (int i = 0; i < columns; ++i) {
+      kiss_fft_stride(along_columns_.get(), data(in) + i, data(half) + at(i, height_), width_);
+    }
+    std::fill(half.begin() + static_cast<std::ptrdiff_t>(at(columns, height_)), half.end(), Complex(0));
+  }
+
+  void row(const Field& half, int row, Field& out) const {
+    kiss_fft_stride(along_rows_.get(), data(half) + row, data(out) + at(row, width_), height_);
+  }
+
+ private:
+  struct Free {
+    void operator()(kiss_fft_cfg plan) const { kiss_fft_free(plan); }
+  };
+  using Plan = std::unique_ptr<kiss_fft_state, Free>;
+
+  static std::size_t at(int line, int length) {
+    return static_cast<std::size_t>(line) * static_cast<std::size_t>(length);
+  }
+  static const kiss_fft_cpx* data(const Field& field) {
+    return reinterpret_cast<const kiss_fft_cpx*>(field.data());
+  }
+  static kiss_fft_cpx* data(Field& field) { return reinterpret_cast<kiss_fft_cpx*>(field.data()); }
+
+  int width_ = 0;
+  int height_ = 0;
+  Plan along_columns_;
+  Plan along_rows_;
+};
 
 struct Spectra {
   Field k, u, v, q;
@@ -44,29 +105,22 @@ struct Correlator::Impl {
   int fixed_width = 0;
   int fixed_height = 0;
   float fixed_pixels = 0;
-  kiss_fftnd_cfg forward = nullptr;
-  kiss_fftnd_cfg backward = nullptr;
+  Transform forward;
+  Transform backward;
   Spectra first;
   Spectra second;
   Field packed;
   Field spectrum;
-  std::array<Field, 4> sums;
+  Field half;                 ///< transformed along the columns only
+  std::array<Field, 4> sums;  ///< n + i c, e1 + i e2, s1u + i s1v, s2u + i s2v
+  std::vector<char>
+      rows;  ///< of the sums: whether any shift has overlap enough; no other row is valid but in sums[0]
   std::vector<float> scores;
-
-  ~Impl() {
-    kiss_fft_free(forward);
-    kiss_fft_free(backward);
-  }
 
   std::size_t size() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 
-  void transform(kiss_fftnd_cfg plan, const Field& in, Field& out) const {
-    kiss_fftnd(plan, reinterpret_cast<const kiss_fft_cpx*>(in.data()),
-               reinterpret_cast<kiss_fft_cpx*>(out.data()));
-  }
-
-  /// Spectra of two real maps by one complex transform: X = (Z(f) + conj Z(-f)) / 2, Y = (Z(f) - conj Z(-f))
-  /// / 2i.
+  /// Spectra of two real maps by one complex transform:
+  /// X = (Z(f) + conj Z(-f)) / 2, Y = (Z(f) - conj Z(-f)) / 2i.
   template <class Fill>
   void transform_two(const ReliefMap& map, Fill fill, Field& x, Field& y) {
     std::fill(packed.begin(), packed.end(), Complex(0));
@@ -78,7 +132,8 @@ struct Correlator::Impl {
             fill(from);
       }
     }
-    transform(forward, packed, spectrum);
+    forward.columns(packed, map.width, half);
+    for (int j = 0; j < height; ++j) forward.row(half, j, spectrum);
     x.resize(size());
     y.resize(size());
     for (int j = 0; j < height; ++j) {
@@ -86,11 +141,15 @@ struct Correlator::Impl {
       const std::size_t back_row =
           static_cast<std::size_t>(j == 0 ? 0 : height - j) * static_cast<std::size_t>(width);
       for (int i = 0; i < width; ++i) {
-        const Complex z = spectrum[row + static_cast<std::size_t>(i)];
-        const Complex w = std::conj(spectrum[back_row + static_cast<std::size_t>(i == 0 ? 0 : width - i)]);
-        x[row + static_cast<std::size_t>(i)] = 0.5F * (z + w);
-        const Complex d = 0.5F * (z - w);
-        y[row + static_cast<std::size_t>(i)] = Complex(d.imag(), -d.real());
+        // Part by part: whole complex numbers go through memory here, at thrice the time.
+        const Complex& z = spectrum[row + static_cast<std::size_t>(i)];
+        const Complex& w = spectrum[back_row + static_cast<std::size_t>(i == 0 ? 0 : width - i)];
+        const float zr = z.real();
+        const float zi = z.imag();
+        const float wr = w.real();
+        const float wi = w.imag();
+        x[row + static_cast<std::size_t>(i)] = {0.5F * (zr + wr), 0.5F * (zi - wi)};
+        y[row + static_cast<std::size_t>(i)] = {0.5F * (zi + wi), -0.5F * (zr - wr)};
       }
     }
   }
@@ -106,52 +165,67 @@ struct Correlator::Impl {
         map, [&](std::size_t p) { return Complex(map.slope_u[p], map.slope_v[p]); }, out.u, out.v);
   }
 
-  /// All eight sums at all shifts, two real fields a complex inverse transform.
-  void correlate() {
-    const std::size_t count = size();
-    const Complex i(0, 1);
-    for (auto& field : sums) field.resize(count);
-    for (int which = 0; which < 4; ++which) {
-      for (std::size_t f = 0; f < count; ++f) {
-        const Complex k2 = std::conj(second.k[f]);
-        Complex real;
-        Complex imaginary;
-        switch (which) {
-          case 0:
-            real = first.k[f] * k2;
-            imaginary = first.u[f] * std::conj(second.u[f]) + first.v[f] * std::conj(second.v[f]);
-            break;
-          case 1:
-            real = first.q[f] * k2;
-            imaginary = first.k[f] * std::conj(second.q[f]);
-            break;
-          case 2:
-            real = first.u[f] * k2;
-            imaginary = first.v[f] * k2;
-            break;
-          default:
-            real = first.k[f] * std::conj(second.u[f]);
-            imaginary = first.k[f] * std::conj(second.v[f]);
-        }
-        packed[f] = Complex(real.real() - imaginary.imag(), real.imag() + imaginary.real());
-      }
-      transform(backward, packed, sums[static_cast<std::size_t>(which)]);
+  /// One complex inverse transform for two real fields.
+  /// \param product  packed spectra at a frequency
+  template <class Product>
+  void transform_back(Product product, Field& sum) {
+    for (std::size_t f = 0; f < packed.size(); ++f) packed[f] = product(f);
+    backward.columns(packed, width, half);
+    for (int j = 0; j < height; ++j) {
+      if (rows[static_cast<std::size_t>(j)] != 0) backward.row(half, j, sum);
     }
   }
 
-  Agreement at(std::size_t place) const {
+  /// All eight sums at all shifts with overlap enough.
+  void correlate(float enough) {
+    const Spectra& a = first;
+    const Spectra& b = second;
+    std::fill(rows.begin(), rows.end(), 1);
+    transform_back(
+        [&](std::size_t f) {
+          return packed_of(times_conjugate(a.k[f], b.k[f]),
+                           times_conjugate(a.u[f], b.u[f]) + times_conjugate(a.v[f], b.v[f]));
+        },
+        sums[0]);
+    for (std::size_t j = 0; j < rows.size(); ++j) {
+      const auto row = sums[0].begin() + static_cast<std::ptrdiff_t>(j * static_cast<std::size_t>(width));
+      rows[j] = std::any_of(row, row + width, [&](Complex sum) { return !(sum.real() < enough); }) ? 1 : 0;
+    }
+    transform_back(
+        [&](std::size_t f) {
+          return packed_of(times_conjugate(a.q[f], b.k[f]), times_conjugate(a.k[f], b.q[f]));
+        },
+        sums[1]);
+    transform_back(
+        [&](std::size_t f) {
+          return packed_of(times_conjugate(a.u[f], b.k[f]), times_conjugate(a.v[f], b.k[f]));
+        },
+        sums[2]);
+    transform_back(
+        [&](std::size_t f) {
+          return packed_of(times_conjugate(a.k[f], b.u[f]), times_conjugate(a.k[f], b.v[f]));
+        },
+        sums[3]);
+  }
+
+  Sums sums_at(std::size_t place) const {
     const float scale = 1.0F / static_cast<float>(size());
-    Sums s{};
-    s.n = sums[0][place].real() * scale;
-    s.c = sums[0][place].imag() * scale;
-    s.e1 = sums[1][place].real() * scale;
-    s.e2 = sums[1][place].imag() * scale;
-    s.s1u = sums[2][place].real() * scale;
-    s.s1v = sums[2][place].imag() * scale;
-    s.s2u = sums[3][place].real() * scale;
-    s.s2v = sums[3][place].imag() * scale;
+    return {sums[0][place].real() * scale, sums[0][place].imag() * scale, sums[1][place].real() * scale,
+            sums[1][place].imag() * scale, sums[2][place].real() * scale, sums[2][place].imag() * scale,
+            sums[3][place].real() * scale, sums[3][place].imag() * scale};
+  }
+
+  /// 0 where nothing is explained or the overlap is too small.
+  float score_at(std::size_t place, float enough) const {
+    if (sums[0][place].real() < enough) return 0.0F;
+    const Sums s = sums_at(place);
+    const float explained = explained_by(s, options);
+    return explained > 0.0F ? score_of(explained, s.n) : 0.0F;
+  }
+
+  Agreement at(std::size_t place) const {
     Agreement a;
-    judge(s, options, a);
+    judge(sums_at(place), options, a);
     const int u = static_cast<int>(place % static_cast<std::size_t>(width));
     const int v = static_cast<int>(place / static_cast<std::size_t>(width));
     a.shift_u = u < fixed_width ? u : u - width;
@@ -178,11 +252,13 @@ Correlator::Correlator(const ReliefMap& fixed, int most_width, int most_height,
   d.fixed_width = fixed.width;
   d.fixed_height = fixed.height;
   d.fixed_pixels = static_cast<float>(fixed.pixels);
-  const std::array<int, 2> dims{d.height, d.width};
-  d.forward = kiss_fftnd_alloc(dims.data(), 2, 0, nullptr, nullptr);
-  d.backward = kiss_fftnd_alloc(dims.data(), 2, 1, nullptr, nullptr);
+  d.forward = Transform(d.width, d.height, false);
+  d.backward = Transform(d.width, d.height, true);
   d.packed.resize(d.size());
   d.spectrum.resize(d.size());
+  d.half.resize(d.size());
+  for (Field& sum : d.sums) sum.resize(d.size());
+  d.rows.resize(static_cast<std::size_t>(d.height));
   d.scores.resize(d.size());
   d.transform_map(fixed, d.first);
 }
@@ -198,14 +274,12 @@ long Correlator::shifts() const {
 std::vector<Agreement> Correlator::peaks(const ReliefMap& other) {
   Impl& d = *impl_;
   d.transform_map(other, d.second);
-  d.correlate();
   const float least =
       std::max(d.options.least_pixels,
                d.options.least_overlap * std::min(d.fixed_pixels, static_cast<float>(other.pixels)));
   const float enough = least * static_cast<float>(d.size());
-  for (std::size_t p = 0; p < d.size(); ++p) {
-    d.scores[p] = d.sums[0][p].real() < enough ? 0.0F : d.at(p).score;
-  }
+  d.correlate(enough);
+  for (std::size_t p = 0; p < d.size(); ++p) d.scores[p] = d.score_at(p, enough);
   std::vector<Agreement> found;
   const auto w = static_cast<std::size_t>(d.width);
   const auto h = static_cast<std::size_t>(d.height);
