@@ -85,6 +85,9 @@ class FacetsCommand final : public Command {
  public:
   void define(CLI::App& app) override {
     app.add_option("A", path_, "scan: ply, obj, stl, off, gltf, glb or drc")->required()->group("Input");
+    app.add_option("--facets", painted_, "the PLY of --ply, painted: a colour a facet")
+        ->type_name("FILE")
+        ->group("Input");
     app.add_option("--ply", ply_, "write the surface with a colour for each facet")
         ->type_name("FILE")
         ->group("Output");
@@ -100,8 +103,9 @@ class FacetsCommand final : public Command {
     for (const auto& file : {ply_, png_, json_}) {
       if (file) require_writable_file(*file);
     }
-    const match::Fragment fragment = load_fragment(path_, console, context);
+    match::Fragment fragment = load_fragment(path_, console, context);
     if (context.cancelled()) return kInterrupted;
+    if (painted_) use_painted_facets({*painted_}, {&fragment}, console);
     console.result(fmt::format("{}: diameter {:.4g}, {}\n", path_, fragment.diameter,
                                fragment.facets.wall_thickness > 0
                                    ? fmt::format("wall {:.3g} thick", fragment.facets.wall_thickness)
@@ -115,6 +119,7 @@ class FacetsCommand final : public Command {
 
  private:
   std::string path_;
+  std::optional<std::string> painted_;
   std::optional<std::string> ply_;
   std::optional<std::string> png_;
   std::optional<std::string> json_;

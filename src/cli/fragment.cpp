@@ -5,14 +5,15 @@
 #include "cli/interrupt.hpp"
 #include "core/error.hpp"
 #include "mesh/load.hpp"
+#include "mesh/painted_facets.hpp"
 
 namespace rejoin::cli {
 namespace {
 
 constexpr std::size_t kLeast = 4;  // faces or points; fewer enclose nothing
 
-mesh::Mesh load_scan(const std::string& path, Console& console) {
-  mesh::Loaded loaded = mesh::load(path);
+mesh::Mesh load_scan(const std::string& path, Console& console, mesh::Weld weld = mesh::Weld::Places) {
+  mesh::Loaded loaded = mesh::load(path, weld);
   for (const std::string& warning : loaded.warnings) console.warning(fmt::format("{}: {}", path, warning));
   const bool cloud = loaded.mesh.is_cloud();
   const std::size_t count = cloud ? loaded.mesh.vertices.size() : loaded.mesh.faces.size();
@@ -44,6 +45,28 @@ match::Fragment load_fragment(const std::string& path, Console& console, const C
                              fragment.scan.vertices.size(), fragment.surface.faces.size(), fragment.diameter,
                              seconds));
   return fragment;
+}
+
+void use_painted_facets(const std::vector<std::string>& files, const std::vector<match::Fragment*>& fragments,
+                        Console& console) {
+  for (const std::string& file : files) {
+    const mesh::Mesh painted = load_scan(file, console, mesh::Weld::PlacesAndColours);
+    if (painted.is_cloud() || painted.colours.empty()) {
+      throw InputError(file, painted.is_cloud() ? "has no faces" : "has no colours",
+                       "paint the file that rejoin facets SCAN --ply writes");
+    }
+    bool used = false;
+    for (match::Fragment* fragment : fragments) {
+      auto facets = mesh::painted_facets(fragment->facets, fragment->surface.origin, painted);
+      if (!facets) continue;
+      fragment->facets = std::move(*facets);
+      used = true;
+    }
+    if (!used) {
+      throw InputError(file, "lies on none of the scans",
+                       "paint the file that rejoin facets SCAN --ply writes, and do not move it");
+    }
+  }
 }
 
 }  // namespace rejoin::cli

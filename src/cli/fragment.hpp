@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "cli/console.hpp"
 #include "core/context.hpp"
@@ -12,5 +13,10 @@ namespace rejoin::cli {
 /// Reads a scan, shows what had to be mended as warnings, and makes it ready.
 /// \throws IoError, InputError as mesh::load()
 match::Fragment load_fragment(const std::string& path, Console& console, const Context& context);
+
+/// Gives every painted surface (`--facets FILE`) to the fragments that it lies on.
+/// \throws IoError, InputError as mesh::load(); it has no colours or lies on no fragment
+void use_painted_facets(const std::vector<std::string>& files, const std::vector<match::Fragment*>& fragments,
+                        Console& console);
 
 }  // namespace rejoin::cli

@@ -64,6 +64,11 @@ class MatchCommand final : public Command {
     app.add_option("B", path_b_, "scan of the fragment that is moved")->required()->group("Input");
     app.add_option("--json", json_, "write pose, score and errors")->type_name("FILE")->group("Output");
     app.add_option("--out", out_, "write the joined model and pictures")->type_name("DIR")->group("Output");
+    app.add_option("--facets", painted_, "facets painted on A or B, may be repeated")
+        ->type_name("FILE")
+        ->expected(1)
+        ->take_all()
+        ->group("Input");
     options_.define(app);
   }
 
@@ -73,8 +78,9 @@ class MatchCommand final : public Command {
     require_two_files(path_a_, path_b_);
     if (json_) require_writable_file(*json_);
     if (out_) require_writable_folder(*out_);
-    const match::Fragment a = load_fragment(path_a_, console, context);
-    const match::Fragment b = load_fragment(path_b_, console, context);
+    match::Fragment a = load_fragment(path_a_, console, context);
+    match::Fragment b = load_fragment(path_b_, console, context);
+    use_painted_facets(painted_, {&a, &b}, console);
     require_facets("--facets-a", options.facets_a, a);
     require_facets("--facets-b", options.facets_b, b);
 
@@ -118,6 +124,7 @@ class MatchCommand final : public Command {
 
   std::string path_a_;
   std::string path_b_;
+  std::vector<std::string> painted_;
   std::optional<std::string> json_;
   std::optional<std::string> out_;
   MatchOptions options_;

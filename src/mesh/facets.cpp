@@ -7,6 +7,7 @@
 #include <queue>
 
 #include "core/parallel.hpp"
+#include "mesh/detail/facet_table.hpp"
 #include "mesh/detail/grow.hpp"
 #include "mesh/point_index.hpp"
 #include "mesh/thickness.hpp"
@@ -164,17 +165,33 @@ void measure(Facet& facet, const Segmentation& s) {
   facet.width = high.y - low.y;
 }
 
-void sort_facets(Segmentation& s) {
+}  // namespace
+
+namespace detail {
+
+std::size_t smallest_facet(const Segmentation& s) {
+  return std::max<std::size_t>(20, s.samples.size() / 300);
+}
+
+void set_facets(Segmentation& s, std::vector<std::vector<std::uint32_t>> members) {
+  s.facets.clear();
+  for (auto& samples : members) {
+    Facet facet;
+    facet.fracture = s.surface[samples.front()] == Surface::Fracture;
+    facet.samples = std::move(samples);
+    measure(facet, s);
+    s.facets.push_back(std::move(facet));
+  }
   std::stable_sort(s.facets.begin(), s.facets.end(), [](const Facet& a, const Facet& b) {
     return a.fracture != b.fracture ? a.fracture : a.area > b.area;
   });
-  std::fill(s.facet_of_sample.begin(), s.facet_of_sample.end(), -1);
+  s.facet_of_sample.assign(s.samples.size(), -1);
   for (std::size_t f = 0; f < s.facets.size(); ++f) {
     for (const auto i : s.facets[f].samples) s.facet_of_sample[i] = static_cast<int>(f);
   }
 }
 
-}  // namespace
+}  // namespace detail
 
 Segmentation segment(const Mesh& mesh) {
   Segmentation s;
@@ -200,17 +217,9 @@ Segmentation segment(const Mesh& mesh) {
   detail::GrowOptions options;
   options.spacing = s.samples.spacing;
   if (thin) options.cone_deg = kStripCone;
-  options.smallest = std::max<std::size_t>(20, s.samples.size() / 300);
-  s.facet_of_sample.assign(s.samples.size(), -1);
-  for (auto& members :
-       detail::grow_facets(s.samples.points, thin ? strip_normals(s) : s.normals, s.surface, near, options)) {
-    Facet facet;
-    facet.fracture = s.surface[members.front()] == Surface::Fracture;
-    facet.samples = std::move(members);
-    measure(facet, s);
-    s.facets.push_back(std::move(facet));
-  }
-  sort_facets(s);
+  options.smallest = detail::smallest_facet(s);
+  detail::set_facets(s, detail::grow_facets(s.samples.points, thin ? strip_normals(s) : s.normals, s.surface,
+                                            near, options));
   return s;
 }
 

@@ -78,13 +78,13 @@ Source read_source(const std::filesystem::path& path) {
 
 }  // namespace detail
 
-Loaded load(const std::filesystem::path& path) {
+Loaded load(const std::filesystem::path& path, Weld weld) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error))
     throw IoError(path.string(), "is a folder", "name a mesh file");
   const Format& format = format_of(path);
   const detail::Source source = detail::read_source(path);
-  Loaded loaded = detail::clean(format.read(source), source.name);
+  Loaded loaded = detail::clean(format.read(source), source.name, weld);
   loaded.format = format.name;
   return loaded;
 }

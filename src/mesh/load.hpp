@@ -16,6 +16,12 @@ struct Loaded {
   std::vector<std::string> warnings;  ///< one line each: points without normals, faces dropped, ...
 };
 
+/// Which vertices become one.
+enum class Weld {
+  Places,            ///< those at exactly the same place
+  PlacesAndColours,  ///< of the same colour, too: borders of painted patches stay sharp, at the price of open edges
+};
+
 /// Reads a mesh or an oriented cloud by its extension (any case) and cleans it.
 ///
 /// Equal vertices are welded (exactly equal ones: nothing depends on the scale), degenerate and duplicate
@@ -26,6 +32,6 @@ struct Loaded {
 /// \throws IoError     the file cannot be opened or ends before what its header promises
 /// \throws InputError  unknown extension, empty or not such a file, NaN or infinite coordinate (names its
 ///                     vertex), index out of range (names its face), nothing left after clean-up, no area
-Loaded load(const std::filesystem::path& path);
+Loaded load(const std::filesystem::path& path, Weld weld = Weld::Places);
 
 }  // namespace rejoin::mesh

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "mesh/load.hpp"
 #include "planted_files.hpp"
 
 namespace rejoin::cli::testing {
@@ -44,6 +45,10 @@ Rigid pose_of(const ordered_json& rows) {
     pose.translation[row] = rows[row][3];
   }
   return pose;
+}
+
+glm::dvec3 position(const ordered_json& xyz) {
+  return {xyz[0], xyz[1], xyz[2]};
 }
 
 std::vector<std::string> keys(const ordered_json& object) {
@@ -141,6 +146,64 @@ TEST_F(MatchCommand, OutHoldsTheModelsAndThePictures) {
     EXPECT_FALSE(read_file(folder / ("deep/result/" + std::string(name))).empty()) << name;
     EXPECT_NE(finished.out.find(name), std::string::npos) << name;
   }
+}
+
+// Painting every fracture facet of B but the joining one grey leaves one facet, and the same pose.
+TEST_F(MatchCommand, PaintedFacetsAreTheOnesThatMayJoin) {
+  const std::string paint = folder / "paint.ply";
+  ASSERT_EQ(run({"facets", b, "--ply", paint, "--json", json}).exit_code, 0);
+  const ordered_json found = ordered_json::parse(read_file(json))["facets"];
+  ASSERT_GT(found.size(), 1U);
+  const int joining = result_of({"match", a, b})["candidates"][0]["facet_b"];
+
+  mesh::Mesh painted = mesh::load(paint, mesh::Weld::PlacesAndColours).mesh;
+  const glm::dvec3 centre = position(found[joining]["centre"]);
+  double nearest = 1e300;
+  glm::u8vec3 kept(0);
+  for (std::size_t v = 0; v < painted.vertices.size(); ++v) {
+    const double distance = glm::distance(painted.origin + glm::dvec3(painted.vertices[v]), centre);
+    if (distance >= nearest) continue;
+    nearest = distance;
+    kept = painted.colours[v];
+  }
+  for (glm::u8vec3& colour : painted.colours) {
+    if (colour != kept) colour = glm::u8vec3(190);
+  }
+  mesh::save(paint, painted);
+
+  ASSERT_EQ(run({"facets", b, "--facets", paint, "--json", json}).exit_code, 0);
+  const ordered_json repainted = ordered_json::parse(read_file(json))["facets"];
+  int fracture = 0;
+  for (const auto& facet : repainted) fracture += facet["fracture"] ? 1 : 0;
+  EXPECT_EQ(fracture, 1);
+  EXPECT_NEAR(repainted[0]["area"], found[joining]["area"], 0.15 * found[joining]["area"].get<double>());
+  const ordered_json result = result_of({"match", a, b, "--facets", paint});
+  EXPECT_EQ(result["candidates"][0]["facet_b"], 0);
+  EXPECT_LT(glm::degrees(angle_between(pose_of(result["pose"]), pair.truth)), 5.0);
+}
+
+TEST_F(MatchCommand, PaintThatLiesOnNeitherScanIsRefusedByName) {
+  const std::string paint = folder / "paint.ply";
+  mesh::Mesh moved = pair.b;
+  moved.origin += glm::dvec3(1000, 0, 0);
+  moved.colours.assign(moved.vertices.size(), {250, 20, 20});
+  mesh::save(paint, moved);
+  const Finished finished = run({"match", a, b, "--facets", paint});
+  EXPECT_EQ(finished.exit_code, 1);
+  EXPECT_TRUE(is_one_line(finished.err)) << finished.err;
+  EXPECT_NE(finished.err.find(paint), std::string::npos) << finished.err;
+  const Finished without_colours = run({"match", a, b, "--facets", a});
+  EXPECT_EQ(without_colours.exit_code, 1);
+  EXPECT_NE(without_colours.err.find("colours"), std::string::npos) << without_colours.err;
+}
+
+// The planted cut is bumpy in both directions: it holds its pose, and half of it says the same as the other half.
+TEST_F(MatchCommand, StabilityOfTheTruePoseIsTold) {
+  const ordered_json stability = result_of({"match", a, b})["stability"];
+  EXPECT_GT(stability["margin"], 0.0);
+  EXPECT_LT(stability["repeat_deg"], 1.0);
+  EXPECT_LT(stability["repeat_shift"], 0.005 * 107);
+  EXPECT_LT(stability["slide"], 0.5);
 }
 
 TEST_F(MatchCommand, FacetThatIsNotThereIsWrongUse) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "mesh/painted_facets.hpp"
 #include "mesh/thickness.hpp"
 
 namespace rejoin::mesh {
@@ -192,6 +193,67 @@ TEST(Facets, EveryFaceOfASideBelongsToItsFacet) {
              glm::dot(glm::dvec3(normals[f]), s.facets[static_cast<std::size_t>(facets[f])].normal) > 0.9;
   }
   EXPECT_GT(right, facets.size() * 95 / 100);
+}
+
+/// The mesh with every face in the colour of its facet, corners not shared, as a painting program saves it.
+Mesh painted_by(const Mesh& mesh, const std::vector<glm::u8vec3>& colour_of_face) {
+  Mesh painted;
+  painted.origin = mesh.origin;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto first = static_cast<std::uint32_t>(painted.vertices.size());
+    for (int corner = 0; corner < 3; ++corner) {
+      painted.vertices.push_back(mesh.vertices[mesh.faces[f][corner]]);
+      painted.colours.push_back(colour_of_face[f]);
+    }
+    painted.faces.emplace_back(first, first + 1, first + 2);
+  }
+  return painted;
+}
+
+TEST(PaintedFacets, OneSideOfABoxInTwoColoursIsTwoFractureFacets) {
+  const Mesh mesh = box({40, 30, 20}, 20, flat);
+  std::vector<glm::u8vec3> colours;
+  for (const glm::uvec3& face : mesh.faces) {
+    const glm::vec3 middle = (mesh.vertices[face.x] + mesh.vertices[face.y] + mesh.vertices[face.z]) / 3.0F;
+    const bool top = middle.z > 19.9F;
+    colours.push_back(!top            ? glm::u8vec3(190)
+                      : middle.x < 10 ? glm::u8vec3(250, 20, 20)
+                                      : glm::u8vec3(20, 20, 250));
+  }
+  const auto found = segment(mesh);
+  const auto s = painted_facets(found, mesh.origin, painted_by(mesh, colours));
+  ASSERT_TRUE(s);
+  std::vector<const Facet*> fracture;
+  for (const Facet& facet : s->facets) {
+    if (facet.fracture) fracture.push_back(&facet);
+  }
+  ASSERT_EQ(fracture.size(), 2U);
+  EXPECT_NEAR(fracture[0]->area, 30 * 30, 0.06 * 900);  // a row of samples at the edges may go either way
+  EXPECT_NEAR(fracture[1]->area, 10 * 30, 0.12 * 300);
+  EXPECT_GT(fracture[1]->normal.z, 0.99);
+  EXPECT_EQ(s->facets.size(), 2U + 5U);  // the other sides are original surface now
+  for (const std::uint32_t i : fracture[0]->samples) EXPECT_EQ(s->surface[i], Surface::Fracture);
+}
+
+TEST(PaintedFacets, PaintOfAnotherOriginIsFound) {
+  Mesh mesh = shell(60, 40);
+  mesh.origin = {1000, -500, 20};
+  const auto found = segment(mesh);
+  Mesh painted = painted_by(mesh, std::vector<glm::u8vec3>(mesh.faces.size(), {250, 20, 20}));
+  for (glm::vec3& v : painted.vertices) v += glm::vec3(7, 8, 9);
+  painted.origin -= glm::dvec3(7, 8, 9);
+  const auto s = painted_facets(found, mesh.origin, painted);
+  ASSERT_TRUE(s);
+  ASSERT_EQ(s->facets.size(), 1U);
+  EXPECT_TRUE(s->facets[0].fracture);
+  EXPECT_EQ(s->facets[0].samples.size(), s->samples.size());
+}
+
+TEST(PaintedFacets, PaintOfAnotherPieceIsRefused) {
+  const Mesh mesh = shell(60, 40);
+  const Mesh other = box({40, 30, 20}, 20, flat);
+  const auto paint = painted_by(other, std::vector<glm::u8vec3>(other.faces.size(), {250, 20, 20}));
+  EXPECT_FALSE(painted_facets(segment(mesh), mesh.origin, paint));
 }
 
 TEST(Thickness, SolidBoxHasNoWall) {

@@ -169,7 +169,7 @@ void clean_cloud(Loaded& loaded, const std::string& name) {
 
 }  // namespace
 
-Loaded clean(const Soup& soup, const std::string& name) {
+Loaded clean(const Soup& soup, const std::string& name, Weld which) {
   check_points(soup, name);
   check_corners(soup, name);
   Loaded loaded;
@@ -179,7 +179,7 @@ Loaded clean(const Soup& soup, const std::string& name) {
     throw InputError(name, fmt::format("none of its {} faces has three corners", soup.sizes.size()),
                      "export the scan again");
   }
-  weld(loaded.mesh);
+  weld(loaded.mesh, which);
   if (cloud) {
     clean_cloud(loaded, name);
   } else {

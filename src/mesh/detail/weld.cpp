@@ -72,12 +72,19 @@ bool is_degenerate(const Mesh& mesh, const glm::uvec3& face) {
 
 }  // namespace
 
-void weld(Mesh& mesh) {
+void weld(Mesh& mesh, Weld which) {
   FirstSeen seen(mesh.vertices.size());
+  FirstSeen places(which == Weld::Places ? 0 : mesh.vertices.size());
+  const auto key_of = [&](std::size_t i) {
+    const glm::uvec3 place = bits_of(mesh.vertices[i]);
+    if (which == Weld::Places || mesh.colours.empty()) return place;
+    const glm::u8vec3 colour = mesh.colours[i];
+    return glm::uvec3(places.number(place), (colour.x << 16) | (colour.y << 8) | colour.z, 0);
+  };
   std::vector<std::uint32_t> renumbered(mesh.vertices.size());
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const std::size_t before = seen.size();
-    const std::uint32_t number = seen.number(bits_of(mesh.vertices[i]));
+    const std::uint32_t number = seen.number(key_of(i));
     renumbered[i] = number;
     const bool is_new = seen.size() != before;
     if (is_new) mesh.vertices[number] = mesh.vertices[i];
