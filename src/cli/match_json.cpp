@@ -25,6 +25,13 @@ ordered_json error_json(const match::JointError& error) {
           {"penetration", error.penetration}};
 }
 
+ordered_json stability_json(const match::Stability& stability) {
+  return {{"margin", stability.margin},
+          {"repeat_deg", stability.repeat_deg},
+          {"repeat_shift", stability.repeat_shift},
+          {"slide", stability.slide}};
+}
+
 ordered_json fragment_json(const match::Fragment& fragment) {
   return {{"path", fragment.path}, {"faces", fragment.surface.faces.size()}, {"diameter", fragment.diameter}};
 }
@@ -100,6 +107,7 @@ std::string match_json(const match::Fragment& a, const match::Fragment& b, const
       {"score", found ? result.candidates[0].score : 0.0},
       {"verdict", name_of(result.verdict)},
       {"error", error_json(found ? result.candidates[0].error : match::JointError())},
+      {"stability", found ? stability_json(result.stability) : ordered_json()},
       {"candidates", candidates},
       {"search", search_json(options, result, stage_times(a, b, result), seconds)},
       {"backend", {{"name", zbuffer::name_of(result.backend)}, {"renderer", result.renderer}}},

@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "mesh/point_index.hpp"
 
@@ -236,12 +238,15 @@ double Joint::tolerance() const {
 Rigid Joint::align(const Rigid& start, const AlignOptions& options) const {
   const Impl& d = *impl_;
   Rigid pose = start;
-  const auto list = d.chosen(d.b.broken, d.b.broken_of(options.facet_b), *d.a.broken_index, pose,
-                             2.0 * options.reach_start, options.most_samples);
+  auto list = d.chosen(d.b.broken, d.b.broken_of(options.facet_b), *d.a.broken_index, pose,
+                       2.0 * options.reach_start, options.most_samples);
   const auto walls = d.thickness > 0
                          ? d.chosen(d.b.walls, d.b.all_walls, *d.a.wall_index, pose,
                                     kWallNear * d.thickness + options.reach_start, options.most_samples)
                          : std::vector<std::uint32_t>{};
+  if (options.half >= 0) {
+    std::erase_if(list, [&](std::uint32_t i) { return static_cast<int>(i % 2) != options.half; });
+  }
   if (list.size() < 12) return pose;
   for (int k = 0; k < options.iterations; ++k) {
     const double part = options.iterations > 1 ? static_cast<double>(k) / (options.iterations - 1) : 1.0;
@@ -295,6 +300,19 @@ std::vector<double> heights_above_quadric(const std::vector<glm::dvec3>& points,
   return heights;
 }
 
+/// Mean of points, and the direction in which they spread most.
+std::pair<glm::dvec3, glm::dvec3> middle_and_axis(const std::vector<glm::dvec3>& points) {
+  glm::dvec3 centre(0.0);
+  for (const auto& p : points) centre += p / static_cast<double>(points.size());
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const auto& p : points) {
+    const Eigen::Vector3d q(p.x - centre.x, p.y - centre.y, p.z - centre.z);
+    spread += q * q.transpose();
+  }
+  const Eigen::Vector3d axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
+  return {centre, {axis.x(), axis.y(), axis.z()}};
+}
+
 }  // namespace
 
 Evidence Joint::evidence(const Rigid& pose, int most_samples, int facet_b) const {
@@ -345,6 +363,7 @@ void Joint::Impl::look_at_contact(const Rigid& pose, const std::vector<std::uint
   if (core.size() < 12 || !(glm::length(normal) > 0)) return;
   e.gap_spread = robust_deviation(core_gaps);
   e.relief = robust_deviation(heights_above_quadric(core, glm::normalize(normal)));
+  std::tie(e.centre, e.along) = middle_and_axis(core);
   const double patches = static_cast<double>(core.size()) * share / (patch * patch);
   e.information =
       0.5 * patches *

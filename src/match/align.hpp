@@ -15,6 +15,7 @@ struct AlignOptions {
   int most_samples = 400;  ///< of B's samples; 0: all
   bool core_only = false;  ///< leave out what is next to another facet: worn edges lie
   int facet_b = -1;        ///< only samples of this facet of B; -1: of all its broken surface
+  int half = -1;           ///< 0 or 1: every other sample, so that the two answers share none; -1: all
 };
 
 /// What speaks for a joint and what against it, at one pose.  Areas in squared mesh units.
@@ -34,6 +35,8 @@ struct Evidence {
   double wall_share = 1;
   double tolerance = 0;    ///< distance below which the surfaces touch, mesh units
   glm::dvec3 normal{0.0};  ///< mean outward normal of A's shared surface, unit; 0 without any
+  glm::dvec3 centre{0.0};  ///< of the shared surface, relative to A's origin
+  glm::dvec3 along{0.0};   ///< its longest direction, unit; 0 without any
 };
 
 /// Two prepared fragments, indexed for alignment.  Poses are B -> A, both relative to their mesh's origin.

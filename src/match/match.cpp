@@ -1,13 +1,13 @@
 #include "match/match.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "core/parallel.hpp"
 #include "core/stopwatch.hpp"
 #include "match/align.hpp"
 #include "match/esa_search.hpp"
+#include "match/refine.hpp"
+#include "match/stability.hpp"
 #include "match/sweep.hpp"
 #include "match/verify.hpp"
 
@@ -17,17 +17,6 @@ namespace {
 constexpr double kDegree = 0.017453292519943295;
 constexpr double kFacetSpread_deg =
     25.0;  // how far a facet's mean normal may lie from the direction that a user sees
-
-constexpr std::size_t kEvenIfCancelled = 6;
-
-/// A pose on its way through the stages; relative to the meshes' origins.
-struct Hypothesis {
-  Rigid pose;
-  Evidence evidence;
-  double strength = 0;
-  int facet_a = -1;
-  int facet_b = -1;
-};
 
 /// Facets that face one of the directions, or the one that comes closest.
 std::vector<int> facets_facing(const Fragment& fragment, const std::vector<glm::dvec3>& directions,
@@ -97,56 +86,6 @@ std::vector<Hypothesis> run_esa(const Fragment& a, const Fragment& b, const Opti
   return hypotheses;
 }
 
-void sort_by_strength(std::vector<Hypothesis>& list) {
-  std::stable_sort(list.begin(), list.end(),
-                   [](const Hypothesis& x, const Hypothesis& y) { return x.strength > y.strength; });
-}
-
-/// One round of alignment over all hypotheses that are left.
-struct Pass {
-  AlignOptions align;
-  int evidence_samples = 0;  ///< of B that are looked at; 0: all
-  bool facet_only = false;   ///< only the facet of B that the hypothesis came from
-};
-
-/// Aligns every hypothesis and weighs its evidence.  After a cancel only the first few still are, so that what was found is
-/// not lost; the others are dropped.
-void refine(std::vector<Hypothesis>& list, const Joint& joint, const Pass& pass, const Context& context) {
-  std::vector<char> done(list.size(), 0);
-  parallel_for(list.size(), 1, [&](std::size_t first, std::size_t last) {
-    for (std::size_t k = first; k < last; ++k) {
-      if (context.cancelled() && k >= kEvenIfCancelled) continue;
-      Hypothesis& hypothesis = list[k];
-      AlignOptions options = pass.align;
-      options.facet_b = pass.facet_only ? hypothesis.facet_b : -1;
-      hypothesis.pose = joint.align(hypothesis.pose, options);
-      hypothesis.evidence = joint.evidence(hypothesis.pose, pass.evidence_samples, options.facet_b);
-      hypothesis.strength = strength(hypothesis.evidence);
-      done[k] = 1;
-    }
-  });
-  std::vector<Hypothesis> kept;
-  for (std::size_t k = 0; k < list.size(); ++k) {
-    if (done[k] != 0) kept.push_back(list[k]);
-  }
-  list.swap(kept);
-  sort_by_strength(list);
-}
-
-std::vector<Hypothesis> distinct(const std::vector<Hypothesis>& list, const Fragment& b, double diameter,
-                                 std::size_t most) {
-  const glm::dvec3 centre = mesh::centroid(b.surface);
-  std::vector<Hypothesis> kept;
-  for (const auto& hypothesis : list) {
-    const bool known = std::any_of(kept.begin(), kept.end(), [&](const Hypothesis& other) {
-      return same_pose(other.pose, hypothesis.pose, centre, diameter);
-    });
-    if (!known) kept.push_back(hypothesis);
-    if (kept.size() == most) break;
-  }
-  return kept;
-}
-
 }  // namespace
 
 Result match(const Fragment& a, const Fragment& b, const Options& options, const Context& context) {
@@ -164,21 +103,14 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
   clock.lap("search");
 
   context.report("align", 0.5);
-  const double t = joint.tolerance();
   const double diameter = std::max(a.diameter, b.diameter);
-  const auto most = static_cast<std::size_t>(options.max_candidates);
-  // Each pass costs more a hypothesis and keeps fewer.  A reach much wider than the sweep's error would pull in
-  // surfaces beside the joint, the other wall of a thin piece above all; so would other facets at first.
-  const std::array<Pass, 4> passes{{{{10.0 * t, 4.0 * t, 8, 120}, 300, true},
-                                    {{8.0 * t, 3.0 * t, 12, 300}, 1500, true},
-                                    {{6.0 * t, 2.0 * t, 20, 0}, 0, false},
-                                    {{3.0 * t, 1.0 * t, 15, 0, true}, 0, false}}};
-  const std::array<std::size_t, 4> kept{10 * most, 3 * most, most, most};
-  for (std::size_t k = 0; k < passes.size(); ++k) {
-    if (k > 0 && context.cancelled()) break;
-    refine(hypotheses, joint, passes[k], context);
-    hypotheses = distinct(hypotheses, b, diameter, kept[k]);
+  for (const Pass& pass : passes(joint.tolerance(), options.max_candidates)) {
+    refine(hypotheses, joint, pass, context);
+    hypotheses = distinct(hypotheses, b, diameter, pass.kept);
+    if (context.cancelled()) break;
   }
+  hypotheses.resize(std::min(hypotheses.size(), static_cast<std::size_t>(options.max_candidates)));
+  if (!context.cancelled()) tighten(hypotheses, joint);
   clock.lap("align");
 
   context.report("verify", 0.8);
@@ -187,6 +119,12 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
     candidate.facet_a = hypothesis.facet_a;
     candidate.facet_b = hypothesis.facet_b;
     result.candidates.push_back(candidate);
+  }
+  if (!hypotheses.empty() && !context.cancelled()) {
+    const Hypothesis& best = hypotheses.front();
+    result.stability = probe(joint, best.pose, best.evidence);
+    const double next = hypotheses.size() > 1 ? hypotheses[1].strength : 0.0;
+    result.stability.margin = log_odds(best.strength) - log_odds(next);
   }
   clock.lap("verify");
   result.cancelled = context.cancelled();

@@ -74,6 +74,14 @@ struct Candidate {
   zbuffer::ViewPair view;  ///< depth-map view of the joint (whole-fragment maps)
 };
 
+/// What keeps a pose where it is.
+struct Stability {
+  double margin = 0;        ///< log-odds by which the best pose is ahead of the best different one
+  double repeat_deg = 0;    ///< turn between the poses that either half of the samples gives, degrees
+  double repeat_shift = 0;  ///< distance of the joint's middle between them, mesh units
+  double slide = 0;         ///< of a push along the seam, what is left after aligning again: 0 held, 1 free
+};
+
 /// A point of the search's course, for the convergence picture.
 struct Progress {
   long evaluations;
@@ -84,6 +92,7 @@ struct Progress {
 struct Result {
   std::vector<Candidate> candidates;  ///< best first, distinct; empty only if nothing could be tried
   Verdict verdict = Verdict::NoJoin;
+  Stability stability;  ///< of the best candidate
   long evaluations = 0;
   bool cancelled = false;                          ///< stopped before the end; what was found is here
   std::vector<StageTime> stages;                   ///< prepare (of the pair), search, align, verify

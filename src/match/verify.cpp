@@ -14,8 +14,6 @@ constexpr double kLoose = 0.5;      // gap spread, in tolerances, that halves wh
 constexpr double kWallsGoOn = 0.8;  // share of the walls that go on across a true seam, at least
 constexpr double kEven = 6.0;       // strength at which a joint is as likely as not
 constexpr double kSlope = 0.75;     // strength that multiplies the odds by e
-constexpr double kSure = 0.97;
-constexpr double kPossible = 0.3;
 
 }  // namespace
 
@@ -29,8 +27,12 @@ double strength(const Evidence& evidence) {
          (1.0 + loose * loose * loose * loose);
 }
 
+double log_odds(double strength) {
+  return (strength - kEven) / kSlope;
+}
+
 double score_of(double strength) {
-  return 1.0 / (1.0 + std::exp(-(strength - kEven) / kSlope));
+  return 1.0 / (1.0 + std::exp(-log_odds(strength)));
 }
 
 Verdict verdict_of(double score) {

@@ -9,6 +9,12 @@ namespace rejoin::match {
 /// What the evidence is worth: information, less what the joint leaves open or overlaps.  Comparable across pairs.
 double strength(const Evidence& evidence);
 
+constexpr double kSure = 0.97;     ///< score from which the verdict is "join"
+constexpr double kPossible = 0.3;  ///< and from which it is "unsure"
+
+/// Strength -> log-odds that the pieces join.
+double log_odds(double strength);
+
 /// Strength -> probability that the pieces join, 0 .. 1.  \source docs/scoring.md tells how it was calibrated.
 double score_of(double strength);
 

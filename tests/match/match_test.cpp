@@ -4,6 +4,8 @@
 
 #include "core/parallel.hpp"
 #include "match/align.hpp"
+#include "match/refine.hpp"
+#include "match/stability.hpp"
 #include "match/sweep.hpp"
 #include "match/verify.hpp"
 #include "planted_block.hpp"
@@ -47,6 +49,47 @@ TEST(Match, FindsThePlantedCut) {
     EXPECT_EQ(result.verdict, Verdict::Join) << "seed " << seed;
     EXPECT_GT(result.evaluations, 1000);
   }
+}
+
+/// Half of a block cut along a plane.
+Fragment flat_half(bool below) {
+  mesh::Mesh half = testing::half_block(below, 48);
+  for (auto& v : half.vertices) {
+    if (std::abs(v.z) < static_cast<float>(testing::kHalfZ)) v.z = 0.0F;
+  }
+  return prepare(below ? "below" : "above", half, Context{});
+}
+
+double slide_at(const Joint& joint, const Rigid& pose) {
+  return probe(joint, pose, joint.evidence(pose, 0)).slide;
+}
+
+TEST(Stability, WavyCutHoldsAndPlaneSlides) {
+  const Pair pair = make_pair(5);
+  EXPECT_LT(slide_at(Joint(pair.a, pair.b), pair.truth), 0.2);
+  const Fragment below = flat_half(true);
+  const Fragment above = flat_half(false);
+  EXPECT_GT(slide_at(Joint(below, above), Rigid{}), 0.8);
+}
+
+TEST(Refine, TighteningNeverWeakensAndSorts) {
+  const Pair pair = make_pair(6);
+  const Joint joint(pair.a, pair.b);
+  std::vector<Hypothesis> list;
+  for (const double offset : {1.0, 0.5}) {  // mm, the stronger one last
+    Hypothesis hypothesis;
+    hypothesis.pose = Rigid{glm::dmat3(1.0), glm::dvec3(offset, 0, 0)} * pair.truth;
+    hypothesis.evidence = joint.evidence(hypothesis.pose, 0);
+    hypothesis.strength = strength(hypothesis.evidence);
+    list.push_back(hypothesis);
+  }
+  ASSERT_LT(list[0].strength, list[1].strength);
+  const double strongest = list[1].strength;
+  tighten(list, joint);
+  EXPECT_GE(list[0].strength, strongest);
+  EXPECT_GE(list[0].strength, list[1].strength);
+  for (const Hypothesis& hypothesis : list)
+    EXPECT_EQ(hypothesis.strength, strength(joint.evidence(hypothesis.pose, 0)));
 }
 
 TEST(Match, PlainBlockDoesNotJoin) {

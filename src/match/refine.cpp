@@ -1,0 +1,92 @@
+#include "match/refine.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "core/parallel.hpp"
+#include "match/esa_search.hpp"
+#include "match/verify.hpp"
+
+namespace rejoin::match {
+namespace {
+
+constexpr std::size_t kEvenIfCancelled = 6;
+constexpr std::array kTighter{0.7, 0.5, 0.35};  // reaches, tolerances
+
+void sort_by_strength(std::vector<Hypothesis>& list) {
+  std::stable_sort(list.begin(), list.end(),
+                   [](const Hypothesis& x, const Hypothesis& y) { return x.strength > y.strength; });
+}
+
+void tighten_one(Hypothesis& hypothesis, const Joint& joint) {
+  const double t = joint.tolerance();
+  const Rigid start = hypothesis.pose;
+  for (const double reach : kTighter) {
+    const Rigid pose = joint.align(start, {1.0 * t, reach * t, 15, 0, true});
+    const Evidence evidence = joint.evidence(pose, 0);
+    if (strength(evidence) <= hypothesis.strength) continue;
+    hypothesis.pose = pose;
+    hypothesis.evidence = evidence;
+    hypothesis.strength = strength(evidence);
+  }
+}
+
+}  // namespace
+
+std::vector<Pass> passes(double tolerance, int most) {
+  const double t = tolerance;
+  const auto kept = static_cast<std::size_t>(most);
+  // A reach much wider than the sweep's error would pull in surfaces beside the joint, the other wall of a thin piece above
+  // all; so would other facets at first.
+  return {{{10.0 * t, 4.0 * t, 8, 120}, 300, true, 10 * kept},
+          {{8.0 * t, 3.0 * t, 12, 300}, 1500, true, 3 * kept},
+          {{6.0 * t, 2.0 * t, 20, 0}, 0, false, kept},
+          {{3.0 * t, 1.0 * t, 15, 0, true}, 0, false, kept}};
+}
+
+void refine(std::vector<Hypothesis>& list, const Joint& joint, const Pass& pass, const Context& context) {
+  std::vector<char> done(list.size(), 0);
+  parallel_for(list.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) {
+      if (context.cancelled() && k >= kEvenIfCancelled) continue;
+      Hypothesis& hypothesis = list[k];
+      AlignOptions options = pass.align;
+      options.facet_b = pass.facet_only ? hypothesis.facet_b : -1;
+      hypothesis.pose = joint.align(hypothesis.pose, options);
+      hypothesis.evidence = joint.evidence(hypothesis.pose, pass.evidence_samples, options.facet_b);
+      hypothesis.strength = strength(hypothesis.evidence);
+      done[k] = 1;
+    }
+  });
+  std::vector<Hypothesis> kept;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    if (done[k] != 0) kept.push_back(list[k]);
+  }
+  list.swap(kept);
+  sort_by_strength(list);
+}
+
+void tighten(std::vector<Hypothesis>& list, const Joint& joint) {
+  parallel_for(list.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) {
+      if (k == 0 || score_of(list[k].strength) >= kPossible) tighten_one(list[k], joint);
+    }
+  });
+  sort_by_strength(list);
+}
+
+std::vector<Hypothesis> distinct(const std::vector<Hypothesis>& list, const Fragment& b, double diameter,
+                                 std::size_t most) {
+  const glm::dvec3 centre = mesh::centroid(b.surface);
+  std::vector<Hypothesis> kept;
+  for (const auto& hypothesis : list) {
+    const bool known = std::any_of(kept.begin(), kept.end(), [&](const Hypothesis& other) {
+      return same_pose(other.pose, hypothesis.pose, centre, diameter);
+    });
+    if (!known) kept.push_back(hypothesis);
+    if (kept.size() == most) break;
+  }
+  return kept;
+}
+
+}  // namespace rejoin::match

@@ -1,0 +1,47 @@
+/// Many rough poses become a few aligned ones.
+#pragma once
+
+#include <vector>
+
+#include "core/context.hpp"
+#include "match/align.hpp"
+
+namespace rejoin::match {
+
+/// A pose on its way through the stages; relative to the meshes' origins.
+struct Hypothesis {
+  Rigid pose;
+  Evidence evidence;
+  double strength = 0;
+  int facet_a = -1;
+  int facet_b = -1;
+};
+
+/// One round of alignment over all hypotheses that are left.
+struct Pass {
+  AlignOptions align;
+  int evidence_samples = 0;  ///< of B that are looked at; 0: all
+  bool facet_only = false;   ///< only the facet of B that the hypothesis came from
+  std::size_t kept = 0;      ///< distinct poses that go on
+};
+
+/// The rounds of a match, first to last; each costs more a hypothesis and keeps fewer.
+/// \param tolerance  Joint::tolerance(), mesh units
+/// \param most       poses left in the end
+std::vector<Pass> passes(double tolerance, int most);
+
+/// Aligns every hypothesis, weighs its evidence, and sorts by strength.  After a cancel only the first few still are, so that
+/// what was found is not lost; the others are dropped.
+void refine(std::vector<Hypothesis>& list, const Joint& joint, const Pass& pass, const Context& context);
+
+/// Aligns the first, and all others that may be a join, again with shorter reaches and takes what is stronger, for how far
+/// worn places have to be left out differs from joint to joint; then sorts.
+/// \pre sorted by refine()
+void tighten(std::vector<Hypothesis>& list, const Joint& joint);
+
+/// The first `most` of a list that are different poses.
+/// \param diameter  of the larger fragment, mesh units
+std::vector<Hypothesis> distinct(const std::vector<Hypothesis>& list, const Fragment& b, double diameter,
+                                 std::size_t most);
+
+}  // namespace rejoin::match
