@@ -7,6 +7,7 @@
 
 #include "match/esa_search.hpp"
 #include "match/match.hpp"
+#include "pair_truth.hpp"
 
 namespace rejoin::bench {
 
@@ -43,32 +44,6 @@ struct Outcome {
   std::optional<double> error_at_truth;  ///< e_d of the true pose seen along the true direction
   long evaluations = 0;
   double seconds = 0;
-};
-
-/// How far a pose is off, as the project measures it.
-struct Deviation {
-  double angle_rad = 0;
-  double displacement = 0;  ///< mean over B's vertices, fraction of the diameter of both fragments joined
-};
-
-/// The truth about one pair.
-class PairTruth {
- public:
-  /// \param pose  B's file coordinates -> A's
-  PairTruth(const match::Fragment& a, const match::Fragment& b, const Rigid& pose);
-
-  const Rigid& pose() const { return pose_; }
-  Deviation deviation(const Rigid& first, const Rigid& second) const;
-  bool right(const Rigid& pose) const;
-
-  /// Mean outward normal of A where B lies opposite to it, A's file axes; nullopt if nothing does.
-  const std::optional<glm::dvec3>& direction() const { return direction_; }
-
- private:
-  Rigid pose_;
-  std::vector<glm::dvec3> points_;  // of B, file coordinates
-  double diameter_ = 0;
-  std::optional<glm::dvec3> direction_;
 };
 
 /// \return nullopt if the search cannot be told what `knowledge` says

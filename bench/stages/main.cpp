@@ -1,0 +1,145 @@
+// What every stage of the sweep search is worth, on sets of fragments with known poses: whether the true pose is still among
+// those that go on, and what the answer would be if the search ended there.  Markdown on stdout.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "fragment_set.hpp"
+#include "match/refine.hpp"
+#include "match/sweep.hpp"
+#include "pair_truth.hpp"
+
+namespace rejoin::bench {
+namespace {
+
+using match::Hypothesis;
+
+struct Arguments {
+  std::vector<std::string> sets;
+  double least_contact = 0;
+};
+
+/// How often a stage's answer is right, over the joins of a set.
+struct Stage {
+  std::string name;
+  int kept_right = 0;     ///< the true pose is among those that go on
+  int found = 0;          ///< the first is within 5 degrees and 2 %
+  int precise = 0;        ///< and within 1 degree and 0.5 %
+  int most_contact = 0;   ///< the one with the largest contact area is within 5 degrees and 2 %
+  std::size_t poses = 0;  ///< that go on
+  double seconds = 0;
+};
+
+class Stages {
+ public:
+  void add(std::size_t k, const std::string& name, const std::vector<Hypothesis>& list,
+           const PairTruth& truth, const match::Fragment& a, const match::Fragment& b, double seconds) {
+    if (stages_.size() <= k) stages_.push_back({.name = name});
+    Stage& stage = stages_[k];
+    stage.seconds += seconds;
+    stage.poses += list.size();
+    if (list.empty()) return;
+    const auto pose_of = [&](const Hypothesis& h) {
+      return Rigid{glm::dmat3(1.0), a.surface.origin} * h.pose * Rigid{glm::dmat3(1.0), -b.surface.origin};
+    };
+    const auto right = [&](const Hypothesis& h) { return truth.right(pose_of(h)); };
+    const auto touching = std::max_element(list.begin(), list.end(), [](const auto& x, const auto& y) {
+      return x.evidence.contact_area < y.evidence.contact_area;
+    });
+    stage.kept_right += std::any_of(list.begin(), list.end(), right) ? 1 : 0;
+    stage.found += right(list.front()) ? 1 : 0;
+    stage.precise += truth.precise(pose_of(list.front())) ? 1 : 0;
+    stage.most_contact += right(*touching) ? 1 : 0;
+  }
+
+  void print(const std::string& set, int joins) const {
+    for (const Stage& stage : stages_) {
+      fmt::print("| {} | {} | {:.0f} | {} of {} | {} | {} | {} | {:.2f} |\n", set, stage.name,
+                 static_cast<double>(stage.poses) / joins, stage.kept_right, joins, stage.found,
+                 stage.precise, stage.most_contact, stage.seconds / joins);
+    }
+    std::fflush(stdout);
+  }
+
+ private:
+  std::vector<Stage> stages_;
+};
+
+double lap(std::chrono::steady_clock::time_point& last) {
+  const auto now = std::chrono::steady_clock::now();
+  const std::chrono::duration<double> seconds = now - last;
+  last = now;
+  return seconds.count();
+}
+
+void measure_join(const match::Fragment& a, const match::Fragment& b, const PairTruth& truth,
+                  Stages& stages) {
+  const match::Joint joint(a, b);
+  auto last = std::chrono::steady_clock::now();
+  std::vector<Hypothesis> list;
+  for (const match::SweepHit& hit : match::sweep(a, b, {}, Context()).hits) {
+    list.push_back({hit.pose, {}, 0.0, hit.facet_a, hit.facet_b});
+  }
+  const double swept = lap(last);
+  for (Hypothesis& h : list) h.evidence = joint.evidence(h.pose, 300);
+  stages.add(0, "sweep", list, truth, a, b, swept);
+  lap(last);
+  const auto passes = match::passes(joint.tolerance(), match::Options().max_candidates);
+  for (std::size_t k = 0; k < passes.size(); ++k) {
+    match::refine(list, joint, passes[k], Context());
+    list = match::distinct(list, b, std::max(a.diameter, b.diameter), passes[k].kept);
+    const double seconds = lap(last);
+    stages.add(k + 1, fmt::format("pass {}", k + 1), list, truth, a, b, seconds);
+    lap(last);
+  }
+  match::tighten(list, joint);
+  stages.add(passes.size() + 1, "tightening", list, truth, a, b, lap(last));
+}
+
+void measure_set(const std::string& folder, double least_contact) {
+  const FragmentSet set = read_set(folder);
+  Shelf shelf(set);
+  Stages stages;
+  int joins = 0;
+  for (const Join& join : set.joins) {
+    if (join.contact_area < least_contact) continue;
+    const match::Fragment& a = shelf.get(join.a);
+    const match::Fragment& b = shelf.get(join.b);
+    const PairTruth truth(a, b, inverse(set.to_world.at(join.a)) * set.to_world.at(join.b));
+    measure_join(a, b, truth, stages);
+    ++joins;
+  }
+  if (joins > 0) stages.print(set.name, joins);
+}
+
+int run(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app("Measures every stage of the sweep search on fragment sets with known poses.");
+  app.add_option("sets", arguments.sets, "folders with a truth.json")->required();
+  app.add_option("--min-contact", arguments.least_contact, "leave out joins with less contact area");
+  CLI11_PARSE(app, argc, argv);
+  fmt::print(
+      "| set | after | poses a join | true pose kept | first: found | precise | most contact: found | s a "
+      "join |\n");
+  fmt::print("| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n");
+  for (const std::string& folder : arguments.sets) measure_set(folder, arguments.least_contact);
+  return 0;
+}
+
+}  // namespace
+}  // namespace rejoin::bench
+
+int main(int argc, char** argv) {
+  try {
+    return rejoin::bench::run(argc, argv);
+  } catch (const rejoin::Error& error) {
+    fmt::print(stderr, "stages: {}\n", error.what());
+    return 1;
+  }
+}
