@@ -20,6 +20,7 @@ constexpr double kCoarser = 3.0;             // a scale's step / that of the one
 
 double median_spacing(const std::vector<Piece>& pieces) {
   std::vector<double> spacings;
+  spacings.reserve(pieces.size());
   for (const Piece& piece : pieces)
     spacings.push_back(perimeter(piece.outline.points) / static_cast<double>(piece.outline.points.size()));
   std::nth_element(spacings.begin(), spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2),

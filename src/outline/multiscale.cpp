@@ -48,7 +48,7 @@ class Multiscale final : public Matcher {
     for (const auto& start : starts) {
       if (context.cancelled()) break;
       auto fitted = fitter_->fit(a, b, start);
-      if (fitted) joins.push_back(std::move(*fitted));
+      if (fitted) joins.push_back(*fitted);
     }
     const double same = kSamePose * std::min(perimeters_[a], perimeters_[b]);
     return {distinct(std::move(joins), (*pieces_)[b], same, kReported)};
@@ -147,6 +147,7 @@ class Multiscale final : public Matcher {
       candidates = std::move(refined);
     }
     std::vector<std::vector<PairedPlaces>> starts;
+    starts.reserve(candidates.size() + rejected.size());
     for (const detail::Candidate& candidate : candidates) starts.push_back(places(a, b, k, candidate));
     for (auto late = rejected.rbegin(); late != rejected.rend() && starts.size() < options_.fitted; ++late)
       starts.push_back(std::move(*late));

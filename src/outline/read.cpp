@@ -79,7 +79,7 @@ PieceSet read_pieces(const std::string& path, const ExtractOptions& options) {
   if (kind == Kind::Picture) {
     Extraction found = extract(path, options);
     outlines = std::move(found.pieces);
-    for (const std::string& note : found.notes) set.notes.push_back(path + ": " + note);
+    for (const std::string& note : found.notes) set.notes.push_back(fmt::format("{}: {}", path, note));
   } else {
     outlines = read_outlines(path, kind, set.notes);
   }

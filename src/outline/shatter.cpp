@@ -134,9 +134,10 @@ std::vector<glm::dvec2> worn(const std::vector<glm::dvec2>& border, double wear,
   const detail::Region rounded = detail::offset(shrunk, 0.5 * wear, 0.05);
   const std::vector<double> lengths = arc_lengths(border);
   detail::Region bites;
-  for (double at = random.uniform(0.0, 100.0 * wear); at < lengths.back();
-       at += random.uniform(20.0, 180.0) * wear) {
+  double at = random.uniform(0.0, 100.0 * wear);
+  while (at < lengths.back()) {
     bites.push_back(disc(point_at(border, lengths, at), wear * random.uniform(1.5, 4.0)));
+    at += random.uniform(20.0, 180.0) * wear;
   }
   return detail::largest(detail::subtract(rounded, bites));
 }

@@ -126,6 +126,7 @@ void draw_curvatures(Image& image, const outline::Outline& a, const outline::Out
   const std::vector<double> on_a = curvature_along(a.points, boundary.begin_a, boundary.length);
   const std::vector<double> on_b = curvature_along(b.points, boundary.begin_b, -boundary.length);
   std::vector<double> sizes;
+  sizes.reserve(on_a.size() + on_b.size());
   for (const double v : on_a) sizes.push_back(std::abs(v));
   for (const double v : on_b) sizes.push_back(std::abs(v));
   std::sort(sizes.begin(), sizes.end());

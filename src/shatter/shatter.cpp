@@ -100,10 +100,11 @@ class Breaker {
  private:
   double signed_distance(const glm::dvec3& point) const {
     const glm::vec3 at(point - object_.origin);
-    for (double reach = 6.0 * spacing(); reach < 16.0 * diameter_;
-         reach *= 8.0) {  // short searches are quick
+    double reach = 6.0 * spacing();
+    while (reach < 16.0 * diameter_) {
       const auto hit = gap_.at(at, static_cast<float>(reach));
       if (hit) return static_cast<double>(hit->gap);
+      reach *= 8.0;  // short searches are quick
     }
     return diameter_;
   }

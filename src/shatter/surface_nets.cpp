@@ -11,11 +11,11 @@
 namespace rejoin::shatter {
 namespace {
 
-constexpr int kSide = 4;           // cells across a block
-constexpr int kNodes = kSide + 1;  // its nodes include those shared with the next block
-constexpr std::size_t kAllNodes = 125;
-constexpr int kBlocks = 8;  // blocks across a group
-static_assert(kAllNodes == kNodes * kNodes * kNodes);
+constexpr int kSide = 4;              // cells across a block
+constexpr int kNodes = kSide + 1;     // its nodes include those shared with the next block
+constexpr std::size_t kRow = kNodes;  // of nodes
+constexpr std::size_t kAllNodes = kRow * kRow * kRow;
+constexpr int kBlocks = 8;         // blocks across a group
 constexpr double kSteepest = 1.2;  // the field's assumed steepest slope; what it misses, neighbours bring in
 constexpr double kHalfDiagonal = 0.8660254037844386;
 
@@ -29,7 +29,8 @@ struct Block {
   std::array<float, kAllNodes> values{};
 
   static std::size_t slot(const glm::ivec3& node) {
-    return static_cast<std::size_t>((node.x * kNodes + node.y) * kNodes + node.z);
+    return (static_cast<std::size_t>(node.x) * kRow + static_cast<std::size_t>(node.y)) * kRow +
+           static_cast<std::size_t>(node.z);
   }
   float value(const glm::ivec3& node) const { return values[slot(node)]; }
 };

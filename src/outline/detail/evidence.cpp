@@ -58,7 +58,10 @@ double agreement_at(const ScaledBorder& a, const ScaledBorder& b, const std::vec
   const double end = sample_of(here_a, place_of(a.border, contacts.back().i));
   Sums sums;
   const double limit = (*a.limits)[k];
-  for (double i = std::ceil(begin + kBlurred); i <= end - kBlurred; i += 1.0) {
+  const auto first = static_cast<long>(std::ceil(begin + kBlurred));
+  const auto last = static_cast<long>(std::floor(end - kBlurred));
+  for (long sample = first; sample <= last; ++sample) {
+    const auto i = static_cast<double>(sample);
     const double at = sample_of(a.border, place_of(here_a, i)) - contacts.front().i;
     const auto low = static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(contacts.size() - 2)));
     const double share = std::clamp(at - static_cast<double>(low), 0.0, 1.0);
