@@ -1,12 +1,15 @@
 // What every stage of the sweep search is worth, on sets of fragments with known poses: whether the true pose is still among
-// those that go on, and what the answer would be if the search ended there.  Markdown on stdout.
+// those that go on, and what the answer would be if the search ended there.  With --knowledge, what it is worth to know the
+// directions of the breaks or a facet instead.  Markdown on stdout.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
@@ -23,6 +26,7 @@ using match::Hypothesis;
 struct Arguments {
   std::vector<std::string> sets;
   double least_contact = 0;
+  bool knowledge = false;
 };
 
 /// How often a stage's answer is right, over the joins of a set.
@@ -102,20 +106,94 @@ void measure_join(const match::Fragment& a, const match::Fragment& b, const Pair
   stages.add(passes.size() + 1, "tightening", list, truth, a, b, lap(last));
 }
 
-void measure_set(const std::string& folder, double least_contact) {
+/// What a user may know, with the options that say it; the true directions are the mean normals of the contact.
+std::vector<std::pair<std::string, match::Options>> knowledge_of(const PairTruth& truth,
+                                                                 const match::Result& free) {
+  std::vector<std::pair<std::string, match::Options>> list;
+  if (truth.direction()) {
+    match::Options options;
+    options.constraint = match::Constraint::Direction;
+    options.directions_a = {*truth.direction()};
+    options.directions_b = {-(glm::transpose(truth.pose().rotation) * *truth.direction())};
+    list.emplace_back("both directions, 10 degrees", options);
+  }
+  if (!free.candidates.empty() && truth.right(free.candidates.front().pose)) {
+    match::Options options;
+    options.facets_a = {free.candidates.front().facet_a};
+    list.emplace_back("A's facet", options);
+  }
+  return list;
+}
+
+/// How often the whole search is right with one kind of knowledge, and without.
+struct Known {
+  int joins = 0;
+  int found = 0;
+  int precise = 0;
+  double seconds = 0;
+  int free_found = 0;
+  double free_seconds = 0;
+};
+
+match::Result timed(const match::Fragment& a, const match::Fragment& b, const match::Options& options,
+                    double& seconds) {
+  auto last = std::chrono::steady_clock::now();
+  match::Result result = match::match(a, b, options, Context());
+  seconds += lap(last);
+  return result;
+}
+
+void measure_knowledge(const match::Fragment& a, const match::Fragment& b, const PairTruth& truth,
+                       std::map<std::string, Known>& table) {
+  double free_seconds = 0;
+  const match::Result free = timed(a, b, {}, free_seconds);
+  const auto right = [&](const match::Result& result) {
+    return !result.candidates.empty() && truth.right(result.candidates.front().pose);
+  };
+  for (const auto& [name, options] : knowledge_of(truth, free)) {
+    Known& row = table[name];
+    const match::Result result = timed(a, b, options, row.seconds);
+    ++row.joins;
+    row.free_seconds += free_seconds;
+    row.free_found += right(free) ? 1 : 0;
+    row.found += right(result) ? 1 : 0;
+    row.precise += right(result) && truth.precise(result.candidates.front().pose) ? 1 : 0;
+  }
+}
+
+void measure_set(const std::string& folder, const Arguments& arguments) {
   const FragmentSet set = read_set(folder);
   Shelf shelf(set);
   Stages stages;
+  std::map<std::string, Known> known;
   int joins = 0;
   for (const Join& join : set.joins) {
-    if (join.contact_area < least_contact) continue;
+    if (join.contact_area < arguments.least_contact) continue;
     const match::Fragment& a = shelf.get(join.a);
     const match::Fragment& b = shelf.get(join.b);
     const PairTruth truth(a, b, inverse(set.to_world.at(join.a)) * set.to_world.at(join.b));
-    measure_join(a, b, truth, stages);
+    if (arguments.knowledge) {
+      measure_knowledge(a, b, truth, known);
+    } else {
+      measure_join(a, b, truth, stages);
+    }
     ++joins;
   }
+  for (const auto& [name, row] : known) {
+    fmt::print("| {} | {} | {} | {} | {} | {} | {:.2f} | {:.2f} |\n", set.name, name, row.joins,
+               row.free_found, row.found, row.precise, row.free_seconds / row.joins, row.seconds / row.joins);
+  }
   if (joins > 0) stages.print(set.name, joins);
+  std::fflush(stdout);
+}
+
+void print_head(bool knowledge) {
+  fmt::print("{}",
+             knowledge
+                 ? "| set | known | joins | found without | found | precise | s without | s |\n"
+                 : "| set | after | poses a join | true pose kept | first: found | precise | most contact: "
+                   "found | s a join |\n");
+  fmt::print("| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n");
 }
 
 int run(int argc, char** argv) {
@@ -123,12 +201,11 @@ int run(int argc, char** argv) {
   CLI::App app("Measures every stage of the sweep search on fragment sets with known poses.");
   app.add_option("sets", arguments.sets, "folders with a truth.json")->required();
   app.add_option("--min-contact", arguments.least_contact, "leave out joins with less contact area");
+  app.add_flag("--knowledge", arguments.knowledge,
+               "whole searches that know directions or a facet, against free ones");
   CLI11_PARSE(app, argc, argv);
-  fmt::print(
-      "| set | after | poses a join | true pose kept | first: found | precise | most contact: found | s a "
-      "join |\n");
-  fmt::print("| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n");
-  for (const std::string& folder : arguments.sets) measure_set(folder, arguments.least_contact);
+  print_head(arguments.knowledge);
+  for (const std::string& folder : arguments.sets) measure_set(folder, arguments);
   return 0;
 }
 

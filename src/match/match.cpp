@@ -128,7 +128,8 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
   }
   clock.lap("verify");
   result.cancelled = context.cancelled();
-  if (!result.candidates.empty()) result.verdict = verdict_of(result.candidates.front().score);
+  if (!result.candidates.empty())
+    result.verdict = verdict_of(result.candidates.front().score, result.stability);
   context.report("done", 1.0);
   return result;
 }

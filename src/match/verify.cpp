@@ -13,6 +13,7 @@ namespace {
 constexpr double kLoose = 0.5;      // gap spread, in tolerances, that halves what a joint is worth
 constexpr double kWallsGoOn = 0.8;  // share of the walls that go on across a true seam, at least
 constexpr double kEven = 6.0;       // strength at which a joint is as likely as not
+constexpr double kSteady = 2.0;     // degrees between the poses of either half of the samples, at most
 constexpr double kSlope = 0.75;     // strength that multiplies the odds by e
 
 }  // namespace
@@ -35,8 +36,8 @@ double score_of(double strength) {
   return 1.0 / (1.0 + std::exp(-log_odds(strength)));
 }
 
-Verdict verdict_of(double score) {
-  if (score >= kSure) return Verdict::Join;
+Verdict verdict_of(double score, const Stability& stability) {
+  if (score >= kSure && stability.repeat_deg <= kSteady) return Verdict::Join;
   return score >= kPossible ? Verdict::Unsure : Verdict::NoJoin;
 }
 

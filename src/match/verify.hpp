@@ -18,8 +18,9 @@ double log_odds(double strength);
 /// Strength -> probability that the pieces join, 0 .. 1.  \source docs/scoring.md tells how it was calibrated.
 double score_of(double strength);
 
-/// \param score  of the best candidate
-Verdict verdict_of(double score);
+/// \param score      of the best candidate
+/// \param stability  of it; a pose that half of the samples would turn is no sure join
+Verdict verdict_of(double score, const Stability& stability);
 
 /// Measures candidates of one pair by rasterised and by ray-cast depth maps of the whole fragments.
 class Verifier {
