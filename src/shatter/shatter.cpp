@@ -3,13 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
 
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "core/random.hpp"
-#include "match/gap.hpp"
+#include "mesh/ray_scene.hpp"
 #include "shatter/sites.hpp"
 #include "shatter/surface_nets.hpp"
 
@@ -20,6 +22,7 @@ constexpr std::size_t kSamples = 20000;
 constexpr double kWarpWave = 0.3;         // coarsest bend of a break, share of the diameter
 constexpr double kWarpAmplitude = 0.025;  // at roughness 1
 constexpr double kFar = 8.0;              // spacings
+constexpr double kRayStep = 1e-6;         // of the diameter, past a surface that a ray has met
 constexpr double kLeastContact = 20.0;    // squared spacings; less is no joint
 
 /// Where a chip came off: a rough ball.
@@ -49,11 +52,17 @@ void require_closed(const std::string& name, const mesh::Mesh& mesh) {
   throw InputError(name, "its surface is not closed, so it has no inside to break", "close its holes first");
 }
 
+/// One thread builds: then the tree never depends on the machine.
+mesh::RayScene make_scene(const mesh::Mesh& object) {
+  const ThreadLimit one(1);
+  return mesh::RayScene(object);
+}
+
 /// The object, its cells and what was worn off.
 class Breaker {
  public:
   Breaker(const std::string& name, const mesh::Mesh& object, const Options& options)
-      : object_(object), options_(options), gap_(object), diameter_(mesh::diameter(object)) {
+      : object_(object), options_(options), scene_(make_scene(object)), diameter_(mesh::diameter(object)) {
     const Noise warp{options.seed, kWarpWave * diameter_, options.roughness * kWarpAmplitude * diameter_,
                      1.5 * spacing()};
     const mesh::Samples samples = mesh::sample_surface(object, kSamples);
@@ -100,13 +109,38 @@ class Breaker {
  private:
   double signed_distance(const glm::dvec3& point) const {
     const glm::vec3 at(point - object_.origin);
-    double reach = 6.0 * spacing();
-    while (reach < 16.0 * diameter_) {
-      const auto hit = gap_.at(at, static_cast<float>(reach));
-      if (hit) return static_cast<double>(hit->gap);
-      reach *= 8.0;  // short searches are quick
+    auto hit = scene_.nearest(at, static_cast<float>(6.0 * spacing()));  // short searches are quick
+    if (!hit) hit = scene_.nearest(at, static_cast<float>(16.0 * diameter_));
+    if (!hit) return diameter_;
+    return (is_inside(at) ? -1.0 : 1.0) * static_cast<double>(hit->distance);
+  }
+
+  /// By what rays meet on their way out: a nearest feature's normal may tell the wrong side of rough surfaces,
+  /// the more often the farther the point is.
+  bool is_inside(const glm::vec3& at) const {
+    static const std::array<glm::vec3, 3> kDirections{glm::normalize(glm::vec3(0.31F, 0.87F, 0.39F)),
+                                                      glm::normalize(glm::vec3(-0.77F, 0.29F, 0.57F)),
+                                                      glm::normalize(glm::vec3(0.53F, -0.43F, -0.73F))};
+    int votes = 0;  // a ray may slip through between two faces
+    for (const glm::vec3& direction : kDirections) votes += layers_around(at, direction) > 0 ? 1 : 0;
+    return 2 * votes > static_cast<int>(kDirections.size());
+  }
+
+  /// Surfaces that a ray leaves, less those that it enters.
+  int layers_around(const glm::vec3& at, const glm::vec3& direction) const {
+    const auto step = static_cast<float>(kRayStep * diameter_);
+    const auto far = static_cast<float>(16.0 * diameter_);
+    int layers = 0;
+    float near = 0.0F;
+    while (const auto hit = scene_.first_hit(at, direction, near, far)) {
+      const glm::uvec3 face = object_.faces[hit->face];
+      const glm::vec3& corner = object_.vertices[face.x];
+      const glm::vec3 normal =
+          glm::cross(object_.vertices[face.y] - corner, object_.vertices[face.z] - corner);
+      layers += glm::dot(normal, direction) > 0.0F ? 1 : -1;
+      near = hit->distance + step;
     }
-    return diameter_;
+    return layers;
   }
 
   double worn_radius(const glm::dvec3& point) const {
@@ -147,7 +181,7 @@ class Breaker {
 
   const mesh::Mesh& object_;
   const Options& options_;
-  match::GapField gap_;
+  mesh::RayScene scene_;
   double diameter_;
   Cells cells_;
   Noise wear_;

@@ -6,6 +6,7 @@
 #include "../mesh/shapes.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "mesh/load.hpp"
 
 namespace rejoin::shatter {
 namespace {
@@ -45,6 +46,20 @@ TEST(Shatter, EveryPieceIsClosedAndTurnedOutwards) {
 TEST(Shatter, PiecesWithoutWearFillTheObject) {
   // A net's corners lie on the surface, its faces inside it, and it rounds the edges of the breaks to a cell.
   EXPECT_NEAR(volume_of(broken_ball(coarse(4))) / kBallVolume, 1.0, 0.04);
+}
+
+TEST(Shatter, PiecesOfARoughScanLieInside) {
+  // Its faces' normals are so rough that a nearest face tells the wrong side of points far away.
+  const std::string path = std::string(REJOIN_SOURCE_DIR) + "/meshes/block/b.drc";
+  const mesh::Mesh block = mesh::load(path).mesh;
+  Options options = coarse(5);
+  options.spacing = 0.05;
+  const Shattered shattered = shatter(path, block, options, Context());
+  ASSERT_EQ(shattered.pieces.size(), 5U);
+  for (const Piece& piece : shattered.pieces) {
+    EXPECT_LT(mesh::diameter(piece.scan), mesh::diameter(block));
+  }
+  EXPECT_LT(volume_of(shattered), mesh::test::volume(block));
 }
 
 TEST(Shatter, WearAndChipsTakeVolumeAway) {
