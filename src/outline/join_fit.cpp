@@ -24,6 +24,8 @@ constexpr double kTurningLimit = 4.0;
 constexpr double kFromMedian = 1.4826;
 /// Overlap that costs a factor e of evidence, share of the smaller piece.
 constexpr double kOverlapScale = 0.03;
+/// The same as a mean depth along the boundary, tolerances.
+constexpr double kOverlapDepth = 0.5;
 /// The automatic step leaves at most this many samples on the mean border.
 constexpr double kMostSamples = 3000.0;
 constexpr double kStepInEdges = 1.4;
@@ -148,8 +150,9 @@ std::optional<FittedJoin> JoinFitter::fit(std::size_t a, std::size_t b,
   join.overlap_area = s.overlap_area(a, b, join.pose, 0.0);
   const double deep = s.overlap_area(a, b, join.pose, s.tolerance);
   fitted.overlap_share = deep / std::min(s.areas[a], s.areas[b]);
+  const double along_boundary = deep / (s.tolerance * join.boundary.length);
   fitted.evidence = detail::agreement(border_a, border_b, contact->contacts) *
-                    std::exp(-fitted.overlap_share / kOverlapScale);
+                    std::exp(-fitted.overlap_share / kOverlapScale - along_boundary / kOverlapDepth);
   join.score = score_of(fitted.evidence);
   return fitted;
 }
