@@ -8,6 +8,7 @@
 #include "cli/outline_calibration.hpp"
 #include "cli/outline_command.hpp"
 #include "cli/outline_json.hpp"
+#include "cli/outline_rims.hpp"
 #include "core/files.hpp"
 #include "report/outline_pictures.hpp"
 
@@ -41,7 +42,9 @@ outline::MultiscaleOptions thorough() {
 class OutlineMatchCommand final : public Command {
  public:
   void define(CLI::App& app) override {
-    app.add_option("A", path_a_, "piece: png, jpg, tif, csv, svg or geojson")->required()->group("Input");
+    app.add_option("A", path_a_, "piece: png, jpg, tif, csv, svg or geojson; or a scan, for its rim")
+        ->required()
+        ->group("Input");
     app.add_option("B", path_b_, "piece that is moved")->required()->group("Input");
     app.add_option("--json", json_, "write pose, score and boundary")->type_name("FILE")->group("Output");
     app.add_option("--out", out_, "write match.png and joined.png")->type_name("DIR")->group("Output");
@@ -54,6 +57,7 @@ class OutlineMatchCommand final : public Command {
   ExitCode run(Console& console, Context& context) override {
     const auto begin = std::chrono::steady_clock::now();
     require_two_files(path_a_, path_b_);
+    if (is_scan(path_a_) || is_scan(path_b_)) return run_rims(console, context);
     outline::MultiscaleOptions multiscale = thorough();
     if (calibration_) read_calibration(*calibration_, multiscale);
     if (json_) require_writable_file(*json_);
@@ -75,6 +79,19 @@ class OutlineMatchCommand final : public Command {
   }
 
  private:
+  ExitCode run_rims(Console& console, Context& context) {
+    if (!is_scan(path_a_) || !is_scan(path_b_))
+      throw UsageError("A B", "one is a scan and the other is flat", "give two of a kind");
+    if (out_ || calibration_ || method_ != OutlineMethod::Automatic) {
+      throw UsageError(out_           ? "--out"
+                       : calibration_ ? "--calibration"
+                                      : "--method",
+                       "is for flat pieces, and these are scans", "leave it out, or use rejoin match");
+    }
+    if (json_) require_writable_file(*json_);
+    return match_rims(path_a_, path_b_, json_, console, context);
+  }
+
   std::string path_a_;
   std::string path_b_;
   std::optional<std::string> json_;
