@@ -1,0 +1,217 @@
+/// rejoin outline match, assemble and calibrate, through the program.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "run_program.hpp"
+
+namespace rejoin::cli::testing {
+namespace {
+
+using nlohmann::json;
+using Matrix = std::array<std::array<double, 3>, 3>;
+
+Matrix matrix_of(const json& rows) {
+  return rows.get<Matrix>();
+}
+
+Matrix product(const Matrix& a, const Matrix& b) {
+  Matrix result{};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      for (std::size_t k = 0; k < 3; ++k) result[i][j] += a[i][k] * b[k][j];
+  return result;
+}
+
+/// Of a motion.
+Matrix inverse(const Matrix& m) {
+  return {{{m[0][0], m[1][0], -m[0][0] * m[0][2] - m[1][0] * m[1][2]},
+           {m[0][1], m[1][1], -m[0][1] * m[0][2] - m[1][1] * m[1][2]},
+           {0.0, 0.0, 1.0}}};
+}
+
+/// The pieces are some hundred pixels across: a hundredth of a radian moves their ends by a few pixels.
+void expect_same_motion(const Matrix& found, const Matrix& truth) {
+  for (std::size_t row = 0; row < 2; ++row) {
+    EXPECT_NEAR(found[row][0], truth[row][0], 0.01);
+    EXPECT_NEAR(found[row][1], truth[row][1], 0.01);
+    EXPECT_NEAR(found[row][2], truth[row][2], 5.0);
+  }
+}
+
+/// Two shapes broken into three pieces each.
+struct BrokenShapes {
+  TemporaryFolder folder;
+  std::string pieces = folder / "pieces";
+  json truth;
+
+  BrokenShapes() {
+    const Finished made = run({"outline", "shatter", pieces, "--shapes", "2", "--pieces", "6", "--resolution",
+                               "25", "--seed", "5"});
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    truth = json::parse(read_file(pieces + "/truth.json"));
+  }
+
+  std::string operator/(const std::string& name) const { return folder / name; }
+
+  Matrix world(const std::string& piece) const { return matrix_of(truth["fragments"][piece]["to_world"]); }
+
+  json assembled() const {
+    const std::string file = folder / "assembly.json";
+    const Finished done = run({"outline", "assemble", pieces, "--json", file});
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+    return json::parse(read_file(file));
+  }
+};
+
+/// A dark square on white, or what `draw` makes of a white picture.
+template <typename Draw>
+std::string picture(const TemporaryFolder& folder, const std::string& name, const Draw& draw) {
+  cv::Mat image(64, 64, CV_8U, cv::Scalar(255));
+  draw(image);
+  const std::string path = folder / name;
+  EXPECT_TRUE(cv::imwrite(path, image));
+  return path;
+}
+
+std::string good_picture(const TemporaryFolder& folder) {
+  return picture(folder, "good.png", [](cv::Mat& image) {
+    cv::rectangle(image, cv::Rect(10, 12, 40, 30), cv::Scalar(0), cv::FILLED);
+  });
+}
+
+/// Refused with exit code 1 and one line that contains `reason`.
+void expect_refusal(const std::vector<std::string>& arguments, const std::string& reason) {
+  const Finished finished = run(arguments);
+  EXPECT_EQ(finished.exit_code, 1);
+  EXPECT_TRUE(is_one_line(finished.err)) << finished.err;
+  EXPECT_NE(finished.err.find(reason), std::string::npos) << finished.err;
+}
+
+TEST(OutlineMatch, FindsAPlantedJoinAndDrawsIt) {
+  const BrokenShapes shapes;
+  const json join = shapes.truth["joins"][0];
+  const std::string a = join[0];
+  const std::string b = join[1];
+  const std::string file = shapes / "match.json";
+  const std::string pictures = shapes / "pictures";
+  const Finished found = run({"outline", "match", shapes.pieces + "/" + a, shapes.pieces + "/" + b, "--json",
+                              file, "--out", pictures});
+  ASSERT_EQ(found.exit_code, 0) << found.err;
+  const json match = json::parse(read_file(file));
+  EXPECT_EQ(match["verdict"], "join");
+  EXPECT_EQ(match["search"]["method"], "multiscale");
+  expect_same_motion(matrix_of(match["pose"]), product(inverse(shapes.world(a)), shapes.world(b)));
+  EXPECT_FALSE(cv::imread(pictures + "/match.png").empty());
+  EXPECT_EQ(cv::imread(pictures + "/joined.png", cv::IMREAD_UNCHANGED).channels(), 4);
+}
+
+TEST(OutlineAssemble, KeepsTwoShapesApartAndPlacesEveryPiece) {
+  const BrokenShapes shapes;
+  const json assembly = shapes.assembled();
+  EXPECT_TRUE(assembly["unplaced"].empty());
+  EXPECT_EQ(assembly["joins"].size(), shapes.truth["joins"].size());
+  for (const json& join : shapes.truth["joins"]) {
+    const std::string a = join[0];
+    const std::string b = join[1];
+    const json& placed_a = assembly["fragments"][a];
+    const json& placed_b = assembly["fragments"][b];
+    EXPECT_EQ(placed_a["group"], placed_b["group"]);
+    expect_same_motion(product(inverse(matrix_of(placed_a["pose"])), matrix_of(placed_b["pose"])),
+                       product(inverse(shapes.world(a)), shapes.world(b)));
+  }
+  for (const auto& [name, piece] : assembly["fragments"].items()) {
+    for (const auto& [other, second] : assembly["fragments"].items()) {
+      const bool one_shape =
+          shapes.truth["fragments"][name]["object"] == shapes.truth["fragments"][other]["object"];
+      EXPECT_EQ(piece["group"] == second["group"], one_shape) << name << " " << other;
+    }
+  }
+}
+
+TEST(OutlineCalibrate, WhatItWritesIsReadByMatch) {
+  const BrokenShapes shapes;
+  shapes.assembled();
+  const std::string numbers = shapes / "numbers.json";
+  const Finished done =
+      run({"outline", "calibrate", shapes.pieces, "--joins", shapes / "assembly.json", "--json", numbers});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const json levels = json::parse(read_file(numbers))["levels"];
+  ASSERT_GE(levels.size(), 2U);
+  double least_mistaken = 1.0;
+  for (const json& level : levels) least_mistaken = std::min(least_mistaken, level["mistaken"].get<double>());
+  // The best scale tells true from false far better than a coin.
+  EXPECT_LT(least_mistaken, 0.25);
+  EXPECT_GT(levels[0]["true_candidates"].get<int>(), 0);
+  EXPECT_GT(levels[0]["false_candidates"].get<int>(), 0);
+  json join = shapes.truth["joins"][0];
+  for (const json& other : shapes.truth["joins"])
+    if (other[2] > join[2]) join = other;
+  const Finished found = run({"outline", "match", shapes.pieces + "/" + join[0].get<std::string>(),
+                              shapes.pieces + "/" + join[1].get<std::string>(), "--calibration", numbers});
+  EXPECT_EQ(found.exit_code, 0) << found.err;
+  EXPECT_EQ(found.out.rfind("join,", 0), 0U) << found.out;
+}
+
+TEST(OutlineMatch, APictureWithoutAPieceIsRefused) {
+  const TemporaryFolder folder;
+  const std::string blank = picture(folder, "blank.png", [](cv::Mat&) {});
+  expect_refusal({"outline", "match", blank, good_picture(folder)}, "no piece stands out");
+}
+
+TEST(OutlineMatch, APieceThatRunsOutOfThePictureIsTold) {
+  const TemporaryFolder folder;
+  const std::string cut = picture(folder, "cut.png", [](cv::Mat& image) {
+    cv::rectangle(image, cv::Rect(0, 0, 40, 64), cv::Scalar(0), cv::FILLED);
+  });
+  const Finished finished = run({"outline", "match", cut, good_picture(folder)});
+  EXPECT_EQ(finished.exit_code, 0);
+  EXPECT_NE(finished.err.find("touches the picture's border"), std::string::npos) << finished.err;
+}
+
+TEST(OutlineMatch, AnOutlineOfThreePointsIsRefused) {
+  const TemporaryFolder folder;
+  write_file(folder / "three.csv", "x,y\n0,0\n10,0\n0,10\n");
+  expect_refusal({"outline", "match", folder / "three.csv", good_picture(folder)}, "3 points");
+}
+
+TEST(OutlineMatch, APictureThatClaimsToBeHugeIsRefusedByItsHeader) {
+  const TemporaryFolder folder;
+  std::string bytes = read_file(good_picture(folder));
+  // Width and height stand at bytes 16 to 23 of every PNG, most significant byte first: 65536 x 65536.
+  for (const std::size_t at : {16U, 20U}) bytes.replace(at, 4, std::string("\0\1\0\0", 4));
+  write_file(folder / "huge.png", bytes);
+  expect_refusal({"outline", "match", folder / "huge.png", good_picture(folder)}, "120 million");
+}
+
+TEST(OutlineAssemble, AFolderWithoutPiecesIsRefused) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "empty");
+  expect_refusal({"outline", "assemble", folder / "empty"}, "holds no picture");
+}
+
+TEST(OutlineCalibrate, JoinsThatAreNoneAreRefused) {
+  const BrokenShapes shapes;
+  write_file(shapes / "joins.json", R"({"joins": [3]})");
+  expect_refusal({"outline", "calibrate", shapes.pieces, "--joins", shapes / "joins.json", "--json",
+                  shapes / "out.json"},
+                 "no two names");
+}
+
+TEST(OutlineMatch, AScanAndAPictureAreWrongUse) {
+  const TemporaryFolder folder;
+  const std::string flat = good_picture(folder);
+  write_file(folder / "scan.ply", "ply\n");
+  const Finished finished = run({"outline", "match", flat, folder / "scan.ply"});
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_NE(finished.err.find("two of a kind"), std::string::npos) << finished.err;
+}
+
+}  // namespace
+}  // namespace rejoin::cli::testing
