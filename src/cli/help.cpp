@@ -88,7 +88,7 @@ std::string HelpFormatter::make_help(const CLI::App* app, std::string /*name*/,
   for (const CLI::App* command : commands) text += layout(command->get_name(), command->get_description());
   for (const HelpGroup& group : help_groups(*app)) text += layout(group);
   const std::string footer = app->get_footer();
-  return footer.empty() ? text : text + "\n" + footer + "\n";
+  return footer.empty() ? text : text + footer + "\n";
 }
 
 }  // namespace rejoin::cli
