@@ -29,6 +29,8 @@ void add_line(std::vector<HelpGroup>& groups, const std::string& heading, HelpLi
     if (group.heading != heading) continue;
     if (is_pair(group.lines.back(), line)) {
       group.lines.back().names += "|-b";
+    } else if (line.description.empty()) {  // told with the one before
+      group.lines.back().names += " " + line.names;
     } else {
       group.lines.push_back(std::move(line));
     }

@@ -16,9 +16,12 @@
 #include "core/files.hpp"
 #include "mesh/save.hpp"
 #include "report/match_pictures.hpp"
+#include "rims/propose.hpp"
 
 namespace rejoin::cli {
 namespace {
+
+const Choices<bool> kProposers = {{"facets", false}, {"rims", true}};
 
 void require_facets(const char* option, const std::vector<int>& numbers, const match::Fragment& fragment) {
   const int count = static_cast<int>(fragment.facets.facets.size());
@@ -60,8 +63,10 @@ std::string summary(const match::Result& result) {
 class MatchCommand final : public Command {
  public:
   void define(CLI::App& app) override {
-    app.add_option("A", path_a_, "scan: ply, obj, stl, off, gltf, glb or drc")->required()->group("Input");
-    app.add_option("B", path_b_, "scan of the fragment that is moved")->required()->group("Input");
+    app.add_option("A", path_a_, "scans (ply obj stl off gltf glb drc); B is moved")
+        ->required()
+        ->group("Input");
+    app.add_option("B", path_b_)->required()->group("Input");
     app.add_option("--json", json_, "write pose, score and errors")->type_name("FILE")->group("Output");
     app.add_option("--out", out_, "write the joined model and pictures")->type_name("DIR")->group("Output");
     app.add_option("--facets", painted_, "facets painted on A or B, may be repeated")
@@ -69,12 +74,15 @@ class MatchCommand final : public Command {
         ->expected(1)
         ->take_all()
         ->group("Input");
+    app.option_defaults()->group("Search");
+    add_choice(app, "--propose", by_rims_, kProposers, "what proposes poses; rims: of thin sherds");
     options_.define(app);
   }
 
   ExitCode run(Console& console, Context& context) override {
     const auto begin = std::chrono::steady_clock::now();
-    const match::Options options = options_.values();
+    match::Options options = options_.values();
+    require_free_search(options);
     require_two_files(path_a_, path_b_);
     if (json_) require_writable_file(*json_);
     if (out_) require_writable_folder(*out_);
@@ -84,6 +92,7 @@ class MatchCommand final : public Command {
     require_facets("--facets-a", options.facets_a, a);
     require_facets("--facets-b", options.facets_b, b);
 
+    if (by_rims_) options.proposals = proposals(a, b, console, context);
     const match::Result result = match::match(a, b, options, context);
     console.end_progress();
     for (const std::string& warning : result.warnings) console.warning(warning);
@@ -98,6 +107,27 @@ class MatchCommand final : public Command {
   }
 
  private:
+  /// Rims propose whole poses: what restricts facets has nothing to restrict.
+  void require_free_search(const match::Options& options) const {
+    if (!by_rims_) return;
+    if (options.search == match::Search::Esa) {
+      throw UsageError("--propose rims", "goes with --search sweep", "leave out one of the two");
+    }
+    if (options.constraint == match::Constraint::Direction || !options.facets_a.empty() ||
+        !options.facets_b.empty()) {
+      throw UsageError("--propose rims", "takes no directions or facets", "leave out one of the two");
+    }
+  }
+
+  std::vector<Rigid> proposals(const match::Fragment& a, const match::Fragment& b, Console& console,
+                               const Context& context) const {
+    std::vector<Rigid> poses;
+    for (const rims::Proposal& proposal : rims::propose(a, b, {}, context)) poses.push_back(proposal.pose);
+    if (poses.empty())
+      console.warning("the rims propose nothing (solid pieces have none); searching over facets");
+    return poses;
+  }
+
   /// An interrupted run gets the joined model only: pictures take longer than a user who wants to stop will wait.
   void write_folder(Console& console, const match::Fragment& a, const match::Fragment& b,
                     const match::Result& result) const {
@@ -127,6 +157,7 @@ class MatchCommand final : public Command {
   std::vector<std::string> painted_;
   std::optional<std::string> json_;
   std::optional<std::string> out_;
+  bool by_rims_ = false;
   MatchOptions options_;
 };
 

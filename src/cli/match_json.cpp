@@ -44,7 +44,9 @@ ordered_json times_json(const std::vector<StageTime>& times) {
 
 ordered_json search_json(const match::Options& options, const match::Result& result,
                          const std::vector<StageTime>& times, double seconds) {
-  return {{"method", options.search == match::Search::Esa ? "esa" : "sweep"},
+  return {{"method", !options.proposals.empty()             ? "rims"
+                     : options.search == match::Search::Esa ? "esa"
+                                                            : "sweep"},
           {"constraint", options.constraint == match::Constraint::None        ? "none"
                          : options.constraint == match::Constraint::Direction ? "direction"
                                                                               : "material"},

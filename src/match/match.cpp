@@ -69,6 +69,17 @@ std::vector<Hypothesis> run_sweep(const Fragment& a, const Fragment& b, const Op
   return hypotheses;
 }
 
+std::vector<Hypothesis> proposed(const Fragment& a, const Fragment& b, const Options& options) {
+  const Rigid from_file_a{glm::dmat3(1.0), -a.surface.origin};
+  const Rigid to_file_b{glm::dmat3(1.0), b.surface.origin};
+  std::vector<Hypothesis> hypotheses;
+  for (const Rigid& proposal : options.proposals) {
+    const Rigid pose = from_file_a * proposal * to_file_b;
+    if (axes_agree(pose, options)) hypotheses.push_back({pose, {}, 0.0, -1, -1});
+  }
+  return hypotheses;
+}
+
 std::vector<Hypothesis> run_esa(const Fragment& a, const Fragment& b, const Options& options,
                                 const Context& context, Result& result) {
   EsaStats stats;
@@ -98,8 +109,9 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
   clock.lap("prepare");
 
   context.report("search", 0.0);
-  auto hypotheses = options.search == Search::Sweep ? run_sweep(a, b, options, context, result)
-                                                    : run_esa(a, b, options, context, result);
+  auto hypotheses = !options.proposals.empty()        ? proposed(a, b, options)
+                    : options.search == Search::Sweep ? run_sweep(a, b, options, context, result)
+                                                      : run_esa(a, b, options, context, result);
   clock.lap("search");
 
   context.report("align", 0.5);

@@ -32,6 +32,8 @@ struct Options {
   std::optional<glm::dvec3> material_b;
   std::vector<int> facets_a;  ///< facet numbers that may join (`rejoin facets`); empty: any
   std::vector<int> facets_b;
+  /// Poses to align instead of searching, B's file coordinates -> A's; empty: search.
+  std::vector<Rigid> proposals;
   int resolution = 128;  ///< pixels across a depth map of a whole fragment
   zbuffer::Backend backend = zbuffer::Backend::Auto;
   int chains = 8;  ///< independent annealing chains

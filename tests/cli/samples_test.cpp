@@ -1,4 +1,4 @@
-/// The sample fragments of meshes/, found with default settings.
+/// The sample fragments of meshes/, found with default settings, and from their rims.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -16,6 +16,7 @@ struct Sample {
   const char* name;
   const char* a;
   const char* b;
+  std::vector<std::string> options;
 };
 
 void PrintTo(const Sample& sample, std::ostream* out) {
@@ -41,11 +42,14 @@ double mean_distance(const mesh::Mesh& mesh, const Rigid& pose, const Rigid& tru
 }
 
 // The limits by which the project counts a joint as found: 5 degrees, and 2 % of the diameter (here of B, the stricter).
-TEST_P(SampleTest, IsFoundWithDefaultSettings) {
+TEST_P(SampleTest, IsFound) {
   const std::string folder = std::string(REJOIN_SOURCE_DIR "/meshes/") + GetParam().name + "/";
   const std::string path_b = folder + GetParam().b;
   const TemporaryFolder temporary;
-  const Finished finished = run({"match", folder + GetParam().a, path_b, "--json", temporary / "match.json"});
+  std::vector<std::string> arguments{"match", folder + GetParam().a, path_b, "--json",
+                                     temporary / "match.json"};
+  arguments.insert(arguments.end(), GetParam().options.begin(), GetParam().options.end());
+  const Finished finished = run(arguments);
   ASSERT_EQ(finished.exit_code, 0) << finished.err;
   const Rigid pose = pose_in(temporary / "match.json");
   const Rigid truth = pose_in(folder + "truth.json");
@@ -55,9 +59,13 @@ TEST_P(SampleTest, IsFoundWithDefaultSettings) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Meshes, SampleTest,
-                         ::testing::Values(Sample{"block", "a.drc", "b.drc"},
-                                           Sample{"bowl", "a.drc", "b.drc"}, Sample{"pot", "a.ply", "b.ply"}),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         ::testing::Values(Sample{"block", "a.drc", "b.drc", {}},
+                                           Sample{"bowl", "a.drc", "b.drc", {}},
+                                           Sample{"bowl", "a.drc", "b.drc", {"--propose", "rims"}},
+                                           Sample{"pot", "a.ply", "b.ply", {}}),
+                         [](const auto& info) {
+                           return info.param.name + std::string(info.param.options.empty() ? "" : "_by_rims");
+                         });
 
 }  // namespace
 }  // namespace rejoin::cli::testing

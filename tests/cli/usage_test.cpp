@@ -54,6 +54,11 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUse{"NegativeThreads", {"match", "a.ply", "b.ply", "--threads", "-2"}, "--threads"},
         WrongUse{"UnknownBackend", {"match", "a.ply", "b.ply", "--backend", "voodoo"}, "raster"},
         WrongUse{"UnknownSearch", {"match", "a.ply", "b.ply", "--search", "luck"}, "sweep|esa"},
+        WrongUse{"RimsByAnnealing",
+                 {"match", "a.ply", "b.ply", "--propose", "rims", "--search", "esa"},
+                 "--search"},
+        WrongUse{
+            "RimsWithFacets", {"match", "a.ply", "b.ply", "--propose", "rims", "--facets-a", "1"}, "facets"},
         WrongUse{"UnknownConstraint", {"match", "a.ply", "b.ply", "--constraint", "hope"}, "direction"},
         WrongUse{"HalfAMaterial", {"match", "a.ply", "b.ply", "--material-a", "0,0,1"}, "--material-b"},
         WrongUse{
