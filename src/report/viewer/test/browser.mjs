@@ -16,10 +16,14 @@ const FLAGS = [
   '--disable-sync',
 ];
 
+// Frames are drawn in software: on a busy machine one may take half a minute.  CTest's limit ends a page that hangs.
+const PATIENCE_MS = 600e3;
+
 /** A browser with an empty profile; close() removes it. */
 export async function openBrowser() {
   const profile = mkdtempSync(join(tmpdir(), 'rejoin-chromium-'));
   const context = await chromium.launchPersistentContext(profile, {executablePath: process.env.REJOIN_CHROMIUM ?? '/usr/bin/chromium', headless: true, args: FLAGS, viewport: {width: 900, height: 600}});
+  context.setDefaultTimeout(PATIENCE_MS);
   const close = async () => {
     await context.close();
     rmSync(profile, {recursive: true, force: true});
