@@ -22,7 +22,7 @@ class Contract : public testing::TestWithParam<Backend> {
     static const std::vector<BackendInfo> known = list_backends();
     const auto info = std::ranges::find(known, GetParam(), &BackendInfo::backend);
     ASSERT_NE(info, known.end());
-    if (!info->available) GTEST_SKIP() << name_of(GetParam()) << " is not available: " << info->why_not;
+    ASSERT_TRUE(info->available) << name_of(GetParam()) << ": " << info->why_not << "; run scripts/setup";
   }
 
   static std::unique_ptr<Scorer> scorer(const mesh::Mesh& a, const mesh::Mesh& b,

@@ -16,7 +16,7 @@ class GlContext : public testing::TestWithParam<Backend> {
  protected:
   void SetUp() override {
     const BackendInfo info = probe(GetParam());
-    if (!info.available) GTEST_SKIP() << name_of(GetParam()) << " is not available: " << info.why_not;
+    ASSERT_TRUE(info.available) << name_of(GetParam()) << ": " << info.why_not << "; run scripts/setup";
   }
 };
 

@@ -20,7 +20,7 @@ class GlPaths : public testing::TestWithParam<Backend> {
  protected:
   void SetUp() override {
     const BackendInfo info = probe(GetParam());
-    if (!info.available) GTEST_SKIP() << name_of(GetParam()) << " is not available: " << info.why_not;
+    ASSERT_TRUE(info.available) << name_of(GetParam()) << ": " << info.why_not << "; run scripts/setup";
   }
 
   static std::unique_ptr<Scorer> scorer(Path path, const mesh::Mesh& a, const mesh::Mesh& b,
