@@ -92,8 +92,14 @@ class MatchCommand final : public Command {
     require_facets("--facets-a", options.facets_a, a);
     require_facets("--facets-b", options.facets_b, b);
 
-    if (by_rims_) options.proposals = proposals(a, b, console, context);
-    const match::Result result = match::match(a, b, options, context);
+    std::vector<StageTime> stages;
+    if (by_rims_) {
+      Stopwatch clock(stages);
+      options.proposals = proposals(a, b, console, context);
+      clock.lap("propose");
+    }
+    match::Result result = match::match(a, b, options, context);
+    result.stages.insert(result.stages.begin(), stages.begin(), stages.end());
     console.end_progress();
     for (const std::string& warning : result.warnings) console.warning(warning);
     if (result.cancelled) console.warning("interrupted; what follows is the best so far");
@@ -123,7 +129,7 @@ class MatchCommand final : public Command {
                                const Context& context) const {
     std::vector<Rigid> poses;
     for (const rims::Proposal& proposal : rims::propose(a, b, {}, context)) poses.push_back(proposal.pose);
-    if (poses.empty())
+    if (poses.empty() && !context.cancelled())
       console.warning("the rims propose nothing (solid pieces have none); searching over facets");
     return poses;
   }

@@ -109,7 +109,7 @@ std::string match_json(const match::Fragment& a, const match::Fragment& b, const
       {"score", found ? result.candidates[0].score : 0.0},
       {"verdict", name_of(result.verdict)},
       {"error", error_json(found ? result.candidates[0].error : match::JointError())},
-      {"stability", found ? stability_json(result.stability) : ordered_json()},
+      {"stability", result.stability ? stability_json(*result.stability) : ordered_json()},
       {"candidates", candidates},
       {"search", search_json(options, result, stage_times(a, b, result), seconds)},
       {"backend", {{"name", zbuffer::name_of(result.backend)}, {"renderer", result.renderer}}},

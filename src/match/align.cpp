@@ -360,6 +360,7 @@ void Joint::Impl::look_at_contact(const Rigid& pose, const std::vector<std::uint
   e.shared_area = static_cast<double>(gaps.size()) * share;
   e.gap_median = median(gaps);
   if (glm::length(normal) > 0) e.normal = glm::normalize(normal);
+  e.core_samples = static_cast<int>(core.size());
   if (core.size() < 12 || !(glm::length(normal) > 0)) return;
   e.gap_spread = robust_deviation(core_gaps);
   e.relief = robust_deviation(heights_above_quadric(core, glm::normalize(normal)));

@@ -15,14 +15,15 @@ struct AlignOptions {
   int most_samples = 400;  ///< of B's samples; 0: all
   bool core_only = false;  ///< leave out what is next to another facet: worn edges lie
   int facet_b = -1;        ///< only samples of this facet of B; -1: of all its broken surface
-  int half = -1;           ///< 0 or 1: every other sample, so that the two answers share none; -1: all
+  int half = -1;           ///< 0 or 1: every other of B's broken samples: the two share none; -1: all
 };
 
 /// What speaks for a joint and what against it, at one pose.  Areas in squared mesh units.
 struct Evidence {
   double contact_area = 0;  ///< B's broken surface that faces A's within the tolerance
-  double shared_area =
-      0;                  ///< B's broken surface that lies over A's, touching or not (within four tolerances)
+  /// B's broken surface that lies over A's, touching or not (within four tolerances).
+  double shared_area = 0;
+  int core_samples = 0;   ///< of the shared surface, those that are not next to another facet
   double gap_median = 0;  ///< over the shared area, mesh units, positive = apart
   double gap_spread = 0;  ///< robust deviation (1.48 MAD) of the gaps, mesh units
   double relief = 0;      ///< robust deviation of the shared surface from a quadric: what there is to explain
@@ -55,7 +56,7 @@ class Joint {
   /// \param facet_b       only samples of this facet of B touch; -1: all its broken surface
   Evidence evidence(const Rigid& pose, int most_samples, int facet_b = -1) const;
 
-  /// Distance below which surfaces touch: a tenth of the wall of thin pieces, or what the scans can tell.
+  /// Distance below which surfaces touch: a twentieth of the wall of thin pieces, or what the scans can tell.
   double tolerance() const;
 
  private:

@@ -136,7 +136,7 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
     const Hypothesis& best = hypotheses.front();
     result.stability = probe(joint, best.pose, best.evidence);
     const double next = hypotheses.size() > 1 ? hypotheses[1].strength : 0.0;
-    result.stability.margin = log_odds(best.strength) - log_odds(next);
+    if (result.stability) result.stability->margin = log_odds(best.strength) - log_odds(next);
   }
   clock.lap("verify");
   result.cancelled = context.cancelled();

@@ -94,7 +94,7 @@ struct Progress {
 struct Result {
   std::vector<Candidate> candidates;  ///< best first, distinct; empty only if nothing could be tried
   Verdict verdict = Verdict::NoJoin;
-  Stability stability;  ///< of the best candidate
+  std::optional<Stability> stability;  ///< of the best candidate; nullopt if it was not probed
   long evaluations = 0;
   bool cancelled = false;                          ///< stopped before the end; what was found is here
   std::vector<StageTime> stages;                   ///< prepare (of the pair), search, align, verify

@@ -36,8 +36,8 @@ double score_of(double strength) {
   return 1.0 / (1.0 + std::exp(-log_odds(strength)));
 }
 
-Verdict verdict_of(double score, const Stability& stability) {
-  if (score >= kSure && stability.repeat_deg <= kSteady) return Verdict::Join;
+Verdict verdict_of(double score, const std::optional<Stability>& stability) {
+  if (score >= kSure && stability && stability->repeat_deg <= kSteady) return Verdict::Join;
   return score >= kPossible ? Verdict::Unsure : Verdict::NoJoin;
 }
 

@@ -1,6 +1,8 @@
 /// The last look at a pose: figures for the report, and how likely the pieces join.
 #pragma once
 
+#include <optional>
+
 #include "match/align.hpp"
 #include "match/match.hpp"
 
@@ -19,8 +21,8 @@ double log_odds(double strength);
 double score_of(double strength);
 
 /// \param score      of the best candidate
-/// \param stability  of it; a pose that half of the samples would turn is no sure join
-Verdict verdict_of(double score, const Stability& stability);
+/// \param stability  of it; a pose that half of the samples would turn, or that was not probed, is no sure join
+Verdict verdict_of(double score, const std::optional<Stability>& stability);
 
 /// Measures candidates of one pair by rasterised and by ray-cast depth maps of the whole fragments.
 class Verifier {

@@ -61,7 +61,7 @@ Fragment flat_half(bool below) {
 }
 
 double slide_at(const Joint& joint, const Rigid& pose) {
-  return probe(joint, pose, joint.evidence(pose, 0)).slide;
+  return probe(joint, pose, joint.evidence(pose, 0)).value().slide;
 }
 
 TEST(Stability, WavyCutHoldsAndPlaneSlides) {
@@ -70,6 +70,15 @@ TEST(Stability, WavyCutHoldsAndPlaneSlides) {
   const Fragment below = flat_half(true);
   const Fragment above = flat_half(false);
   EXPECT_GT(slide_at(Joint(below, above), Rigid{}), 0.8);
+}
+
+TEST(Stability, PoseWithoutContactIsNotProbedAndNoSureJoin) {
+  const Pair pair = make_pair(5);
+  const Joint joint(pair.a, pair.b);
+  const Rigid apart = Rigid{glm::dmat3(1.0), glm::dvec3(1000, 0, 0)} * pair.truth;
+  EXPECT_FALSE(probe(joint, apart, joint.evidence(apart, 0)));
+  EXPECT_EQ(verdict_of(1.0, std::nullopt), Verdict::Unsure);
+  EXPECT_EQ(verdict_of(1.0, Stability{}), Verdict::Join);
 }
 
 TEST(Refine, TighteningNeverWeakensAndSorts) {

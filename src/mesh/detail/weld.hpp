@@ -8,9 +8,9 @@
 
 namespace rejoin::mesh::detail {
 
-/// Makes one vertex of all vertices at exactly the same place, and of one colour if so asked (no tolerance: nothing may depend on the scale)
-/// and adjusts the faces.  The first one's place in the order stays; normals are added up (not unit length
-/// any more), the first colour is kept.
+/// Makes one vertex of all vertices at exactly the same place (no tolerance: nothing may depend on the scale),
+/// and of one colour if so asked, and adjusts the faces.  The first one's place in the order stays; normals are
+/// added up (not unit length any more), the first colour is kept.
 void weld(Mesh& mesh, Weld which = Weld::Places);
 
 struct Dropped {
