@@ -1,0 +1,60 @@
+"""Rigid motions as rows of 4 x 4 matrices, boxes of scans, and the truth of a set."""
+import json
+import math
+import struct
+import subprocess
+from pathlib import Path
+
+
+def read_truth(folder):
+    """(file name -> matrix to the assembled object, (A, B) -> contact area) of FOLDER/truth.json."""
+    truth = json.loads((folder / "truth.json").read_text())
+    poses = {name: fragment["to_world"] for name, fragment in truth["fragments"].items()}
+    return poses, {tuple(sorted(join[:2])): join[2] for join in truth["joins"]}
+
+
+def product(a, b):
+    return [[sum(a[i][k] * b[k][j] for k in range(4)) for j in range(4)] for i in range(4)]
+
+
+def inverse(m):
+    turned = [[m[j][i] for j in range(3)] for i in range(3)]
+    moved = [-sum(turned[i][k] * m[k][3] for k in range(3)) for i in range(3)]
+    return [turned[i] + [moved[i]] for i in range(3)] + [[0.0, 0.0, 0.0, 1.0]]
+
+
+def moved(m, p):
+    return [sum(m[i][k] * p[k] for k in range(3)) + m[i][3] for i in range(3)]
+
+
+def corners(program, scan, folder):
+    """The corners of a scan's box in file coordinates, read from the PLY that `rejoin facets` writes of it."""
+    copy = Path(folder) / "box.ply"
+    subprocess.run([program, "facets", str(scan), "--ply", str(copy), "--quiet"], check=True, stdout=subprocess.DEVNULL)
+    data = copy.read_bytes()
+    header, body = data.split(b"end_header\n", 1)
+    lines = header.decode().splitlines()
+    count = next(int(line.split()[2]) for line in lines if line.startswith("element vertex"))
+    sizes = {"float": 4, "double": 8, "uchar": 1}
+    kinds, inside = [], False
+    for line in lines:
+        if line.startswith("element"):
+            inside = line.startswith("element vertex")
+        elif line.startswith("property") and inside:
+            kinds.append(line.split()[1])
+    layout = struct.Struct("<" + "".join({"float": "f", "double": "d", "uchar": "B"}[kind] for kind in kinds))
+    assert layout.size == sum(sizes[kind] for kind in kinds)
+    points = [layout.unpack_from(body, k * layout.size)[:3] for k in range(0, count, max(1, count // 2000))]
+    low = [min(axis) for axis in zip(*points)]
+    high = [max(axis) for axis in zip(*points)]
+    return [[(low, high)[(k >> axis) & 1][axis] for axis in range(3)] for k in range(8)]
+
+
+def angle(a, b):
+    """Angle between two motions, degrees."""
+    trace = sum(a[i][k] * b[i][k] for i in range(3) for k in range(3))
+    return math.degrees(math.acos(max(-1.0, min(1.0, (trace - 1) / 2))))
+
+
+def diagonal(points):
+    return math.dist([min(axis) for axis in zip(*points)], [max(axis) for axis in zip(*points)])
