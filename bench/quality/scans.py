@@ -5,6 +5,9 @@ import struct
 import subprocess
 from pathlib import Path
 
+FOUND = (5.0, 2.0)  # degrees, per cent of the two fragments' joint diameter
+PRECISE = (1.0, 0.5)
+
 
 def read_truth(folder):
     """(file name -> matrix to the assembled object, (A, B) -> contact area) of FOLDER/truth.json."""
@@ -58,3 +61,10 @@ def angle(a, b):
 
 def diagonal(points):
     return math.dist([min(axis) for axis in zip(*points)], [max(axis) for axis in zip(*points)])
+
+
+def offsets(pose, truth, box_a, box_b):
+    """Rotation error in degrees, mean displacement of B's box in per cent of the joint diameter."""
+    there = [moved(truth, p) for p in box_b]
+    off = sum(math.dist(moved(pose, p), q) for p, q in zip(box_b, there)) / len(box_b)
+    return angle(pose, truth), 100 * off / diagonal(box_a + there)
