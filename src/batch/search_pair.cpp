@@ -10,18 +10,6 @@
 namespace rejoin::batch {
 namespace {
 
-const char* name_of(match::Verdict verdict) {
-  switch (verdict) {
-    case match::Verdict::Join:
-      return "join";
-    case match::Verdict::Unsure:
-      return "unsure";
-    case match::Verdict::NoJoin:
-      break;
-  }
-  return "no join";
-}
-
 store::Candidate candidate_from(const match::Candidate& found) {
   store::Candidate candidate;
   candidate.score = found.score;

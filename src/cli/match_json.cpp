@@ -68,18 +68,6 @@ ordered_json search_json(const match::Options& options, const match::Result& res
 
 }  // namespace
 
-const char* name_of(match::Verdict verdict) {
-  switch (verdict) {
-    case match::Verdict::Join:
-      return "join";
-    case match::Verdict::Unsure:
-      return "unsure";
-    case match::Verdict::NoJoin:
-      break;
-  }
-  return "no join";
-}
-
 std::vector<StageTime> stage_times(const match::Fragment& a, const match::Fragment& b,
                                    const match::Result& result) {
   std::vector<StageTime> times;

@@ -11,9 +11,6 @@ namespace rejoin::cli {
 std::string match_json(const match::Fragment& a, const match::Fragment& b, const match::Options& options,
                        const match::Result& result, double seconds);
 
-/// "join", "unsure", "no join"
-const char* name_of(match::Verdict verdict);
-
 /// Where the time of a run went: the stages of both fragments, "load a" and so on, then those of the pair.
 std::vector<StageTime> stage_times(const match::Fragment& a, const match::Fragment& b,
                                    const match::Result& result);

@@ -99,6 +99,18 @@ std::vector<Hypothesis> run_esa(const Fragment& a, const Fragment& b, const Opti
 
 }  // namespace
 
+const char* name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::Join:
+      return "join";
+    case Verdict::Unsure:
+      return "unsure";
+    case Verdict::NoJoin:
+      break;
+  }
+  return "no join";
+}
+
 Result match(const Fragment& a, const Fragment& b, const Options& options, const Context& context) {
   Result result;
   Stopwatch clock(result.stages);

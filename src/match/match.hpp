@@ -20,6 +20,9 @@ enum class Search { Sweep, Esa };
 enum class Constraint { None, Direction, Material };
 enum class Verdict { Join, Unsure, NoJoin };
 
+/// As JSON, tables and pages have it: "join", "unsure", "no join".
+const char* name_of(Verdict verdict);
+
 /// What the user may set; the defaults work.
 struct Options {
   Search search = Search::Sweep;
