@@ -107,8 +107,8 @@ std::vector<Facing> facing_points(const Piece& a, const Piece& b, const Rigid& b
     const glm::dvec3 on_b = origin_b + glm::dvec3(b.broken().at[i]);
     const glm::dvec3 in_a = b_to_a(on_b);
     if (glm::distance(in_a, a.centre()) > a.radius() + reach) continue;
-    const auto hit = a.broken_index().nearest(glm::vec3(in_a - origin_a));
-    if (!hit || static_cast<double>(hit->second) > reach) continue;
+    const auto hit = a.broken_index().nearest_within(glm::vec3(in_a - origin_a), static_cast<float>(reach));
+    if (!hit) continue;
     const glm::dvec3 normal(a.broken().normals[hit->first]);
     if (glm::dot(normal, b_to_a.rotation * glm::dvec3(b.broken().normals[i])) > kFacing) continue;
     result.push_back({origin_a + glm::dvec3(a.broken().at[hit->first]), normal, on_b});

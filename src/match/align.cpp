@@ -78,10 +78,9 @@ Side side_of(const Fragment& fragment, double edge_radius) {
   if (s.wall_thickness > 0) {
     for (std::size_t i = 0; i < s.samples.size(); ++i) {
       if (s.surface[i] != mesh::Surface::Original) continue;
-      const auto seam = side.broken_index->nearest(s.samples.points[i]);
-      if (!seam || seam->second < kWallClear * s.wall_thickness ||
-          seam->second > kWallNear * s.wall_thickness)
-        continue;
+      const auto seam = side.broken_index->nearest_within(s.samples.points[i],
+                                                          static_cast<float>(kWallNear * s.wall_thickness));
+      if (!seam || seam->second < kWallClear * s.wall_thickness) continue;
       side.all_walls.push_back(static_cast<std::uint32_t>(side.walls.points.size()));
       side.walls.points.push_back(s.samples.points[i]);
       side.walls.normals.push_back(s.normals[i]);
@@ -160,8 +159,8 @@ struct Joint::Impl {
     std::vector<std::uint32_t> list;
     const std::size_t step = stride(from.size(), 8 * most);
     for (std::size_t i = 0; i < from.size(); i += step) {
-      const auto hit = index.nearest(apply(r, t, cloud.points[from[i]]));
-      if (hit && static_cast<double>(hit->second) < reach) list.push_back(from[i]);
+      if (index.nearest_within(apply(r, t, cloud.points[from[i]]), static_cast<float>(reach)))
+        list.push_back(from[i]);
     }
     if (most > 0 && list.size() > static_cast<std::size_t>(most)) {
       std::vector<std::uint32_t> fewer;
@@ -180,9 +179,8 @@ struct Joint::Impl {
     for (const auto i : list) {
       if (core_only && b.broken.edge[i]) continue;
       const glm::vec3 p = apply(r, t, b.broken.points[i]);
-      const auto hit = a.broken_index->nearest(p);
-      if (hit && core_only && a.broken.edge[hit->first]) continue;
-      if (!hit || static_cast<double>(hit->second) > 1.5 * reach) continue;
+      const auto hit = a.broken_index->nearest_within(p, static_cast<float>(1.5 * reach));
+      if (!hit || (core_only && a.broken.edge[hit->first])) continue;
       const glm::vec3 n = a.broken.normals[hit->first];
       if (glm::dot(n, r * b.broken.normals[i]) > kFacing) continue;
       const auto offset = static_cast<double>(glm::dot(p - a.broken.points[hit->first], n));
@@ -197,8 +195,8 @@ struct Joint::Impl {
     const glm::vec3 t(pose.translation);
     for (const auto i : list) {
       const glm::vec3 p = apply(r, t, b.walls.points[i]);
-      const auto hit = a.wall_index->nearest(p);
-      if (!hit || static_cast<double>(hit->second) > kWallNear * thickness) continue;
+      const auto hit = a.wall_index->nearest_within(p, static_cast<float>(kWallNear * thickness));
+      if (!hit) continue;
       const glm::vec3 n_b = r * b.walls.normals[i];
       const glm::vec3 n_a = a.walls.normals[hit->first];
       if (glm::dot(n_a, n_b) < kWallAlike) continue;
@@ -336,10 +334,11 @@ void Joint::Impl::look_at_contact(const Rigid& pose, const std::vector<std::uint
   double touching = 0.0;
   const std::size_t step = stride(from.size(), most_samples);
   const double share = static_cast<double>(step) * b.sample_area;
+  const auto farthest = static_cast<float>(std::hypot(spacing, 4.0 * tolerance));
   for (std::size_t k = 0; k < from.size(); k += step) {
     const std::uint32_t i = from[k];
     const glm::vec3 p = apply(r, t, b.broken.points[i]);
-    const auto hit = a.broken_index->nearest(p);
+    const auto hit = a.broken_index->nearest_within(p, farthest);
     if (!hit) continue;
     const glm::vec3 n = a.broken.normals[hit->first];
     const glm::vec3 offset = p - a.broken.points[hit->first];
@@ -380,8 +379,8 @@ void Joint::Impl::look_for_penetration(const Rigid& pose, int most_samples, Evid
   double depth = 0.0;
   for (std::size_t i = 0; i < b.body.points.size(); i += step) {
     const glm::vec3 p = apply(r, t, b.body.points[i]);
-    const auto hit = a.body_index->nearest(p);
-    if (!hit || static_cast<double>(hit->second) > deepest) continue;
+    const auto hit = a.body_index->nearest_within(p, static_cast<float>(deepest));
+    if (!hit) continue;
     const glm::vec3 offset = p - a.body.points[hit->first];
     const auto gap = static_cast<double>(glm::dot(offset, a.body.normals[hit->first]));
     if (gap > -3.0 * tolerance || -gap < 0.7 * static_cast<double>(hit->second)) continue;
@@ -400,11 +399,10 @@ void Joint::Impl::look_at_walls(const Rigid& pose, int most_samples, Evidence& e
   const std::size_t step = stride(b.walls.points.size(), most_samples);
   for (std::size_t i = 0; i < b.walls.points.size(); i += step) {
     const glm::vec3 p = apply(r, t, b.walls.points[i]);
-    const auto seam = a.broken_index->nearest(p);
-    if (!seam || static_cast<double>(seam->second) > kWallNear * thickness) continue;
+    if (!a.broken_index->nearest_within(p, static_cast<float>(kWallNear * thickness))) continue;
     all += 1.0;
-    const auto hit = a.wall_index->nearest(p);
-    if (!hit || static_cast<double>(hit->second) > 2.0 * kWallNear * thickness) continue;
+    const auto hit = a.wall_index->nearest_within(p, static_cast<float>(2.0 * kWallNear * thickness));
+    if (!hit) continue;
     const glm::dvec3 n_b(r * b.walls.normals[i]);
     const glm::dvec3 n_a(a.walls.normals[hit->first]);
     if (glm::dot(n_a, n_b) < static_cast<double>(kWallAlike)) continue;

@@ -20,6 +20,28 @@ struct Points {
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Points>, Points, 3,
                                                  std::uint32_t>;
 
+/// nanoflann's result of a search for the nearest point that starts with a limit, so that far parts of the tree are never entered.
+class NearestWithin {
+ public:
+  explicit NearestWithin(float squared_radius) : squared_(squared_radius) {}
+  /// Is offered points of a leaf that are farther than others of that leaf, too.
+  bool addPoint(float squared, std::uint32_t index) {
+    if (squared >= squared_) return true;
+    squared_ = squared;
+    index_ = index;
+    found_ = true;
+    return true;
+  }
+  float worstDist() const { return squared_; }
+  bool full() const { return found_; }
+  std::uint32_t index() const { return index_; }
+
+ private:
+  float squared_;
+  std::uint32_t index_ = 0;
+  bool found_ = false;
+};
+
 }  // namespace
 
 struct PointIndex::Impl {
@@ -55,6 +77,14 @@ std::optional<std::pair<std::uint32_t, float>> PointIndex::nearest(const glm::ve
   float squared = 0;
   impl_->tree->knnSearch(&point.x, 1, &index, &squared);
   return std::pair(index, std::sqrt(squared));
+}
+
+std::optional<std::pair<std::uint32_t, float>> PointIndex::nearest_within(const glm::vec3& point,
+                                                                          float radius) const {
+  if (!impl_->tree) return std::nullopt;
+  NearestWithin result(radius * radius);
+  if (!impl_->tree->findNeighbors(result, &point.x, nanoflann::SearchParams())) return std::nullopt;
+  return std::pair(result.index(), std::sqrt(result.worstDist()));
 }
 
 void PointIndex::nearest(const glm::vec3& point, std::size_t k, std::vector<std::uint32_t>& found) const {

@@ -25,6 +25,9 @@ class PointIndex {
   /// Nearest point and its distance; nullopt if there are no points.
   std::optional<std::pair<std::uint32_t, float>> nearest(const glm::vec3& point) const;
 
+  /// Nearest point that is closer than `radius`, and its distance.  The smaller the radius, the faster.
+  std::optional<std::pair<std::uint32_t, float>> nearest_within(const glm::vec3& point, float radius) const;
+
   /// The k nearest, nearest first.
   void nearest(const glm::vec3& point, std::size_t k, std::vector<std::uint32_t>& found) const;
 

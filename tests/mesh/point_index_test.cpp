@@ -1,0 +1,59 @@
+#include "mesh/point_index.hpp"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <vector>
+
+#include "core/random.hpp"
+
+namespace rejoin::mesh {
+namespace {
+
+glm::vec3 random_point(Random& random, float size) {
+  const auto number = [&] { return size * static_cast<float>(random.uniform() - 0.5); };
+  const float x = number();
+  const float y = number();
+  return {x, y, 0.1F * number()};
+}
+
+/// By looking at every point.
+std::optional<float> least_distance(const std::vector<glm::vec3>& points, const glm::vec3& to, float radius) {
+  std::optional<float> least;
+  for (const glm::vec3& point : points) {
+    const float distance = glm::distance(point, to);
+    if (distance < radius && (!least || distance < *least)) least = distance;
+  }
+  return least;
+}
+
+TEST(PointIndex, NearestWithinIsThatOfAllPointsOrNone) {
+  Random random(7);
+  std::vector<glm::vec3> points;
+  for (int k = 0; k < 3000; ++k) points.push_back(random_point(random, 1.0F));
+  const PointIndex index(points);
+  int hits = 0;
+  constexpr int kAsked = 2000;
+  for (int k = 0; k < kAsked; ++k) {
+    const glm::vec3 asked = random_point(random, 1.5F);
+    const auto radius = static_cast<float>(0.1 * random.uniform());
+    const auto least = least_distance(points, asked, radius);
+    const auto found = index.nearest_within(asked, radius);
+    ASSERT_EQ(found.has_value(), least.has_value()) << "point " << k << ", radius " << radius;
+    if (!found) continue;
+    ++hits;
+    EXPECT_FLOAT_EQ(found->second, *least);
+    EXPECT_FLOAT_EQ(glm::distance(points[found->first], asked), *least);
+  }
+  EXPECT_GT(hits, kAsked / 10);
+  EXPECT_LT(hits, kAsked * 9 / 10);
+}
+
+TEST(PointIndex, WithoutPointsNothingIsNear) {
+  const PointIndex index({});
+  EXPECT_FALSE(index.nearest_within(glm::vec3(0.0F), 1.0F));
+  EXPECT_FALSE(index.nearest(glm::vec3(0.0F)));
+}
+
+}  // namespace
+}  // namespace rejoin::mesh
