@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
+#include <ostream>
 #include <string>
 
 #include "core/files.hpp"
@@ -17,21 +17,16 @@ std::string quoted(const std::string& text) {
   return result + '"';
 }
 
-const char* stage_of(const store::Pair& pair) {
-  if (pair.stage == store::Stage::Sweep) return "sweep";
-  return pair.stage == store::Stage::Match ? "match" : "failed";
-}
-
 }  // namespace
 
 void write_table(const store::Run& run, const std::filesystem::path& file) {
-  std::string text = "a,b,score,verdict,stage,evidence,error\n";
-  for (const store::Pair& pair : run.pairs()) {
-    fmt::format_to(std::back_inserter(text), "{},{},{:.6f},{},{},{:.3f},{}\n", quoted(pair.name_a),
-                   quoted(pair.name_b), pair.score, pair.verdict, stage_of(pair), pair.evidence,
-                   quoted(pair.error));
-  }
-  write_file(file, text);
+  write_file(file, [&run](std::ostream& out) {
+    out << "a,b,score,verdict,stage,evidence,error\n";
+    run.each_pair([&out](const store::Pair& pair) {
+      out << fmt::format("{},{},{:.6f},{},{},{:.3f},{}\n", quoted(pair.name_a), quoted(pair.name_b),
+                         pair.score, pair.verdict, name_of(pair.stage), pair.evidence, quoted(pair.error));
+    });
+  });
 }
 
 }  // namespace rejoin::batch

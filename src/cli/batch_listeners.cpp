@@ -117,16 +117,11 @@ class JsonListener final : public WarningListener {
   void on_pair(const store::Pair& pair, const batch::Progress& progress) override {
     WarningListener::on_pair(pair, progress);
     const bool failed = pair.stage == store::Stage::Failed;
-    ordered_json json = {{"event", "pair"},
-                         {"a", pair.name_a},
-                         {"b", pair.name_b},
-                         {"stage", failed                              ? "failed"
-                                   : pair.stage == store::Stage::Sweep ? "sweep"
-                                                                       : "match"},
-                         {"score", pair.score},
-                         {"verdict", failed ? ordered_json() : ordered_json(pair.verdict)},
-                         {"seconds", pair.seconds},
-                         {"error", failed ? ordered_json(pair.error) : ordered_json()}};
+    ordered_json json = {
+        {"event", "pair"},         {"a", pair.name_a},
+        {"b", pair.name_b},        {"stage", name_of(pair.stage)},
+        {"score", pair.score},     {"verdict", failed ? ordered_json() : ordered_json(pair.verdict)},
+        {"seconds", pair.seconds}, {"error", failed ? ordered_json(pair.error) : ordered_json()}};
     add_progress(json, progress);
     print_line(json);
   }

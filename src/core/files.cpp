@@ -63,13 +63,24 @@ void require_writable_folder(const fs::path& folder) {
 }
 
 void write_file(const fs::path& path, std::string_view content) {
+  write_file(path, [content](std::ostream& out) {
+    out.write(content.data(), static_cast<std::streamsize>(content.size()));
+  });
+}
+
+void write_file(const fs::path& path, const std::function<void(std::ostream&)>& write) {
   const bool direct = is_device(path);
   const fs::path target = direct ? path : beside(path);
   errno = 0;
   std::ofstream file(target, std::ios::binary);
-  file.write(content.data(), static_cast<std::streamsize>(content.size()));
-  file.close();
   std::error_code problem;
+  try {
+    write(file);
+  } catch (...) {
+    if (!direct) fs::remove(target, problem);
+    throw;
+  }
+  file.close();
   if (!file) {
     const int reason = errno;
     if (!direct) fs::remove(target, problem);

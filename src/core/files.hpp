@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <iosfwd>
 #include <string_view>
 
 namespace rejoin {
@@ -17,5 +19,9 @@ void require_writable_folder(const std::filesystem::path& folder);
 /// The file appears whole or not at all (written beside and renamed); a device such as /dev/stdout is written
 /// to directly.  \throws IoError
 void write_file(const std::filesystem::path& path, std::string_view content);
+
+/// The same for content that is too long for memory.
+/// \param write  what it throws goes on, and leaves no file
+void write_file(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
 
 }  // namespace rejoin

@@ -39,10 +39,13 @@ struct Fragment {
 
 /// How far a pair was taken.
 enum class Stage {
-  Sweep,   ///< the cheap sweep found too little for more
+  Sweep,   ///< the coarse sweep found too little for more
   Match,   ///< searched in full
   Failed,  ///< `error` says why; not tried again while the inputs stay
 };
+
+/// As tables and JSON have it: "sweep", "match", "failed".
+const char* name_of(Stage stage);
 
 struct Pair {
   std::int64_t a = 0;  ///< fragment ids, a's name before b's
@@ -50,7 +53,7 @@ struct Pair {
   std::string name_a;
   std::string name_b;
   Stage stage = Stage::Failed;
-  double evidence = 0;  ///< what the cheap sweep found (its unit is the stage's own); 0 where it was not run
+  double evidence = 0;  ///< strength of the coarse sweep's best pose; 0 where it was not run
   double score = 0;     ///< 0 .. 1, comparable across pairs
   std::string verdict;  ///< "join", "unsure" or "no join"; empty if it failed
   double seconds = 0;   ///< spent on it, all stages

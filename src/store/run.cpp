@@ -151,21 +151,24 @@ std::vector<Fragment> Run::fragments() const {
 }
 
 std::vector<Pair> Run::pairs() const {
-  return detail::guarded(access_->path, [&] {
+  std::vector<Pair> list;
+  each_pair([&list](const Pair& pair) { list.push_back(pair); });
+  return list;
+}
+
+void Run::each_pair(const std::function<void(const Pair&)>& visit) const {
+  detail::guarded(access_->path, [&] {
     auto rows = access_->query(
         "SELECT p.a, p.b, x.name, y.name, p.stage, p.evidence, p.score, p.verdict, p.seconds, p.error, "
         "p.result "
         "FROM pair p JOIN fragment x ON x.id = p.a JOIN fragment y ON y.id = p.b "
         "ORDER BY p.score DESC, p.evidence DESC, x.name, y.name");
-    std::vector<Pair> list;
     while (rows.executeStep()) {
-      list.push_back(
-          {rows.getColumn(0).getInt64(), rows.getColumn(1).getInt64(), rows.getColumn(2).getString(),
-           rows.getColumn(3).getString(), detail::stage(rows.getColumn(4).getString()),
-           rows.getColumn(5).getDouble(), rows.getColumn(6).getDouble(), rows.getColumn(7).getString(),
-           rows.getColumn(8).getDouble(), rows.getColumn(9).getString(), rows.getColumn(10).getString()});
+      visit({rows.getColumn(0).getInt64(), rows.getColumn(1).getInt64(), rows.getColumn(2).getString(),
+             rows.getColumn(3).getString(), detail::stage(rows.getColumn(4).getString()),
+             rows.getColumn(5).getDouble(), rows.getColumn(6).getDouble(), rows.getColumn(7).getString(),
+             rows.getColumn(8).getDouble(), rows.getColumn(9).getString(), rows.getColumn(10).getString()});
     }
-    return list;
   });
 }
 
@@ -254,7 +257,7 @@ void Run::save(const Pair& pair, const std::vector<Candidate>& candidates) {
     auto row = access_->query("INSERT INTO pair VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)");
     row.bind(1, pair.a);
     row.bind(2, pair.b);
-    row.bind(3, detail::name_of(pair.stage));
+    row.bind(3, name_of(pair.stage));
     row.bind(4, pair.evidence);
     row.bind(5, pair.score);
     row.bind(6, pair.verdict);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -43,6 +44,8 @@ class Run {
 
   /// All pairs that are done, best score first, then by names.
   std::vector<Pair> pairs() const;
+  /// The same, one at a time: there may be more than memory holds.
+  void each_pair(const std::function<void(const Pair&)>& visit) const;
 
   /// A pair that is done, by its fragments' ids.
   struct Done {

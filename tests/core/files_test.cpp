@@ -81,5 +81,18 @@ TEST_F(Files, RequiredFolderIsMadeWithItsParents) {
   EXPECT_THROW(require_writable_folder(folder_ / "file"), IoError);
 }
 
+TEST_F(Files, FailedWriterLeavesTheOldFileAndNothingElse) {
+  const fs::path file = folder_ / "table.csv";
+  write_file(file, "old");
+  EXPECT_THROW(write_file(file,
+                          [](std::ostream& out) {
+                            out << "half of the new";
+                            throw StoreError("run.sqlite", "is damaged", "restore it");
+                          }),
+               StoreError);
+  EXPECT_EQ(read(file), "old");
+  EXPECT_EQ(entries(), 1);
+}
+
 }  // namespace
 }  // namespace rejoin

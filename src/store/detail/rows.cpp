@@ -39,18 +39,6 @@ const char* name_of(FragmentState state) {
   return "waiting";
 }
 
-const char* name_of(Stage stage) {
-  switch (stage) {
-    case Stage::Sweep:
-      return "sweep";
-    case Stage::Match:
-      return "match";
-    case Stage::Failed:
-      break;
-  }
-  return "failed";
-}
-
 FragmentState fragment_state(const std::string& name) {
   if (name == "ready") return FragmentState::Ready;
   return name == "bad" ? FragmentState::Bad : FragmentState::Waiting;

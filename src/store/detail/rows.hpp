@@ -20,7 +20,6 @@ inline constexpr const char* kCandidateColumns =
 std::string placeholders();
 
 const char* name_of(FragmentState state);
-const char* name_of(Stage stage);
 FragmentState fragment_state(const std::string& name);
 Stage stage(const std::string& name);
 
