@@ -36,17 +36,20 @@ struct CorrelateOptions {
 /// squared instead of absolute slope differences; masked correlation after Padfield 2012.
 class Correlator {
  public:
-  /// \param most_width, most_height  the largest second map that will come
-  Correlator(const ReliefMap& fixed, int most_width, int most_height, const CorrelateOptions& options);
+  Correlator(const ReliefMap& fixed, const CorrelateOptions& options);
   ~Correlator();
   Correlator(Correlator&&) noexcept;
   Correlator& operator=(Correlator&&) noexcept;
 
-  /// Shifts that one call looks at.
-  long shifts() const;
-
   /// Best local maxima of the score over all shifts, best first.
   std::vector<Agreement> peaks(const ReliefMap& other);
+
+  /// Shifts that the last call of peaks() looked at.
+  long shifts() const;
+
+  /// The order in which peaks() is fastest on these maps: those that need fields of one size follow each other, so that the
+  /// fixed map is transformed once a size.
+  std::vector<std::size_t> cheapest_order(std::span<const ReliefMap> others) const;
 
  private:
   struct Impl;

@@ -132,22 +132,19 @@ SweepResult correlate_turns(const FacetPatch& a, const FacetPatch& b, const Task
                             const std::vector<double>& turns, int keep, const Context& context) {
   const ReliefMap map_a = relief_of(a, pitch);
   std::vector<ReliefMap> maps_b;
-  int width = 0;
-  int height = 0;
   for (const double turn : turns) {
     if (context.cancelled()) return {};
     maps_b.push_back(facing_relief_of(b, pitch, turn));
-    width = std::max(width, maps_b.back().width);
-    height = std::max(height, maps_b.back().height);
   }
-  Correlator correlator(map_a, width, height, CorrelateOptions{});
+  Correlator correlator(map_a, CorrelateOptions{});
   SweepResult result;
-  result.evaluations = static_cast<long>(turns.size()) * correlator.shifts();
-  for (std::size_t t = 0; t < turns.size() && !context.cancelled(); ++t) {
+  for (const std::size_t t : correlator.cheapest_order(maps_b)) {
+    if (context.cancelled()) break;
     for (const Agreement& peak : correlator.peaks(maps_b[t])) {
       result.hits.push_back({task.facet_a, task.facet_b, turns[t], pitch, peak,
                              pose_of_peak(a, b, map_a, maps_b[t], peak, turns[t])});
     }
+    result.evaluations += correlator.shifts();
   }
   result.hits = distinct(std::move(result.hits), 3.0 * pitch, b.centre, 0.5 * std::min(a.length, b.length),
                          static_cast<std::size_t>(keep));

@@ -1,0 +1,98 @@
+#include "match/detail/fft_plan.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace rejoin::match::detail {
+namespace {
+
+constexpr double kTurn = 2.0 * 3.14159265358979323846;
+constexpr std::size_t kSmallest = 8;
+/// Lines that are transformed in step on the widest vectors.
+constexpr std::size_t kLines = 16;
+
+struct Radix {
+  int radix;
+  double cost;  ///< of a pass, operations and moves a number
+};
+/// Largest first, so that few passes are needed; 4 leads, as zeros and products are put in there.
+constexpr std::array<Radix, 4> kRadices = {{{5, 20.0}, {3, 15.0}, {4, 13.0}, {2, 10.0}}};
+
+/// Factors of a length without the leading 4; empty if it has others than 2, 3 and 5.
+std::vector<Radix> factors_of(std::size_t length) {
+  std::vector<Radix> factors;
+  if (length < kSmallest || length % 4 != 0) return factors;
+  std::size_t left = length / 4;
+  for (const Radix& r : kRadices) {
+    for (; left % static_cast<std::size_t>(r.radix) == 0; left /= static_cast<std::size_t>(r.radix))
+      factors.push_back(r);
+  }
+  if (left != 1) factors.clear();
+  return factors;
+}
+
+struct Length {
+  std::size_t length;
+  double cost;  ///< of a line
+};
+
+/// Lengths from `least` on; the last has a power of two, so one is always cheap enough.
+std::vector<Length> lengths_from(std::size_t least) {
+  std::vector<Length> lengths;
+  for (std::size_t length = (std::max(least, kSmallest) + 3) / 4 * 4;; length += 4) {
+    const auto factors = factors_of(length);
+    if (factors.empty()) continue;
+    double cost = kRadices[2].cost;
+    for (const Radix& r : factors) cost += r.cost;
+    lengths.push_back({length, cost * static_cast<double>(length)});
+    if (length > least + least / 3) return lengths;
+  }
+}
+
+std::size_t whole_blocks(std::size_t lines) {
+  return (lines + kLines - 1) / kLines * kLines;
+}
+
+}  // namespace
+
+FftPlan plan_fft(std::size_t length) {
+  FftPlan plan;
+  plan.length = length;
+  std::vector<int> radices = {4};
+  for (const Radix& r : factors_of(length)) radices.push_back(r.radix);
+  std::size_t done = 1;
+  for (const int radix : radices) {
+    const auto r = static_cast<std::size_t>(radix);
+    const std::size_t left = length / done;
+    const FftStage stage{radix, left / r, done, plan.twiddles.size()};
+    for (std::size_t p = 0; p < stage.groups; ++p) {
+      for (std::size_t k = 1; k < r; ++k) {
+        const double angle = -kTurn * static_cast<double>(p * k) / static_cast<double>(left);
+        plan.twiddles.push_back(static_cast<float>(std::cos(angle)));
+        plan.twiddles.push_back(static_cast<float>(std::sin(angle)));
+      }
+    }
+    plan.stages.push_back(stage);
+    done *= r;
+  }
+  return plan;
+}
+
+FftSize fft_size(std::size_t least_width, std::size_t least_height) {
+  FftSize best;
+  double least_cost = std::numeric_limits<double>::max();
+  for (const Length& height : lengths_from(least_height)) {
+    for (const Length& width : lengths_from(least_width)) {
+      const double cost = static_cast<double>(whole_blocks(height.length)) * width.cost +
+                          static_cast<double>(whole_blocks(width.length)) * height.cost;
+      if (cost >= least_cost) continue;
+      least_cost = cost;
+      best = {width.length, height.length};
+    }
+  }
+  return best;
+}
+
+}  // namespace rejoin::match::detail
