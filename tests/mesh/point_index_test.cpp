@@ -29,8 +29,8 @@ std::optional<float> least_distance(const std::vector<glm::vec3>& points, const 
 
 TEST(PointIndex, NearestWithinIsThatOfAllPointsOrNone) {
   Random random(7);
-  std::vector<glm::vec3> points;
-  for (int k = 0; k < 3000; ++k) points.push_back(random_point(random, 1.0F));
+  std::vector<glm::vec3> points(3000);
+  for (glm::vec3& point : points) point = random_point(random, 1.0F);
   const PointIndex index(points);
   int hits = 0;
   constexpr int kAsked = 2000;
