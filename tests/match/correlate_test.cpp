@@ -116,7 +116,8 @@ ReliefMap round_map(Random& random, int width, int height) {
   map.pixels = 0;
   for (int j = 0; j < height; ++j) {
     for (int i = 0; i < width; ++i) {
-      const auto k = static_cast<std::size_t>(j * width + i);
+      const auto k =
+          static_cast<std::size_t>(j) * static_cast<std::size_t>(width) + static_cast<std::size_t>(i);
       const double x = (2 * i + 1.0) / width - 1.0;
       const double y = (2 * j + 1.0) / height - 1.0;
       if (x * x + y * y > 1.0) map.mask[k] = map.slope_u[k] = map.slope_v[k] = 0.0F;
