@@ -42,11 +42,13 @@ Profile profile_of(const ReliefMap& map) {
                   std::vector<int>(static_cast<std::size_t>(map.height))};
   const float* mask = map.mask.data();
   for (int& row : profile.rows) {
+    int in_row = 0;
     for (int& column : profile.columns) {
       const int counts = *mask++ != 0.0F ? 1 : 0;
-      row += counts;
+      in_row += counts;
       column += counts;
     }
+    row = in_row;
   }
   return profile;
 }

@@ -4,32 +4,28 @@
 #include <cmath>
 #include <limits>
 
-#include "zbuffer/depth_map.hpp"
-
 namespace rejoin::match {
 namespace {
 
-/// Draws points (x, y in plane coordinates, z = height, highest wins).
-ReliefMap draw_relief(const std::vector<glm::vec3>& points, const std::vector<glm::uvec3>& faces,
-                      double pitch) {
+/// Draws a patch as it lies after `turn` (x, y in plane coordinates, z = height, highest wins).
+ReliefMap draw_relief(const FacetPatch& patch, const glm::mat2& turn, double pitch) {
   glm::vec2 low(std::numeric_limits<float>::max());
   glm::vec2 high(std::numeric_limits<float>::lowest());
-  for (const auto& p : points) {
-    low = glm::min(low, glm::vec2(p));
-    high = glm::max(high, glm::vec2(p));
+  for (const auto& p : patch.points) {
+    const glm::vec2 turned = turn * glm::vec2(p);
+    low = glm::min(low, turned);
+    high = glm::max(high, turned);
   }
   ReliefMap map;
   map.pitch = pitch;
   map.low = glm::dvec2(low);
   map.width = static_cast<int>(std::ceil(static_cast<double>(high.x - low.x) / pitch)) + 1;
   map.height = static_cast<int>(std::ceil(static_cast<double>(high.y - low.y) / pitch)) + 1;
-  std::vector<glm::vec3> pixels(points.size());
   const auto scale = static_cast<float>(1.0 / pitch);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    pixels[i] = glm::vec3((points[i].x - low.x) * scale, (points[i].y - low.y) * scale, -points[i].z);
-  }
+  const glm::mat3 linear(glm::vec3(scale * turn[0], 0.0F), glm::vec3(scale * turn[1], 0.0F),
+                         glm::vec3(0.0F, 0.0F, -1.0F));
   zbuffer::DepthMap depth(map.width, map.height);
-  zbuffer::draw(pixels, faces, depth);
+  patch.triangles.draw(linear, glm::vec3(-scale * low, 0.0F), depth);
   map.height_map = std::move(depth.depth);
   for (float& h : map.height_map) h = -h;
   return map;
@@ -71,15 +67,15 @@ FacetPatch cut_patch(const mesh::Mesh& mesh, const std::vector<int>& facet_of_fa
   for (std::uint32_t f = 0; f < facet_of_face.size(); ++f) {
     if (facet_of_face[f] == facet) chosen.push_back(f);
   }
-  const mesh::Mesh part = mesh::submesh(mesh, chosen);
-  patch.faces = part.faces;
-  patch.points.reserve(part.vertices.size());
-  for (const auto& v : part.vertices) patch.points.emplace_back((glm::dvec3(v) - patch.centre) * patch.frame);
+  mesh::Mesh part = mesh::submesh(mesh, chosen);
+  for (auto& v : part.vertices) v = glm::vec3((glm::dvec3(v) - patch.centre) * patch.frame);
+  patch.triangles = zbuffer::Triangles(part);
+  patch.points = std::move(part.vertices);
   return patch;
 }
 
 ReliefMap relief_of(const FacetPatch& patch, double pitch) {
-  ReliefMap map = draw_relief(patch.points, patch.faces, pitch);
+  ReliefMap map = draw_relief(patch, glm::mat2(1.0F), pitch);
   take_slopes(map, 1.0F);
   return map;
 }
@@ -87,12 +83,7 @@ ReliefMap relief_of(const FacetPatch& patch, double pitch) {
 ReliefMap facing_relief_of(const FacetPatch& patch, double pitch, double turn_rad) {
   const auto c = static_cast<float>(std::cos(turn_rad));
   const auto s = static_cast<float>(std::sin(turn_rad));
-  std::vector<glm::vec3> turned(patch.points.size());
-  for (std::size_t i = 0; i < turned.size(); ++i) {
-    const glm::vec3 p = patch.points[i];
-    turned[i] = glm::vec3(-c * p.x - s * p.y, -s * p.x + c * p.y, p.z);
-  }
-  ReliefMap map = draw_relief(turned, patch.faces, pitch);
+  ReliefMap map = draw_relief(patch, glm::mat2(-c, -s, -s, c), pitch);
   take_slopes(map, -1.0F);
   return map;
 }

@@ -6,6 +6,7 @@
 
 #include "mesh/facets.hpp"
 #include "mesh/mesh.hpp"
+#include "zbuffer/triangles.hpp"
 
 namespace rejoin::match {
 
@@ -13,10 +14,10 @@ namespace rejoin::match {
 /// its centre.
 struct FacetPatch {
   std::vector<glm::vec3> points;  ///< mesh units
-  std::vector<glm::uvec3> faces;
-  glm::dmat3 frame{1.0};   ///< columns x, y, z in the mesh's axes; right-handed
-  glm::dvec3 centre{0.0};  ///< relative to the mesh's origin
-  double length = 0;       ///< extents of the points along x and y, mesh units
+  zbuffer::Triangles triangles;   ///< between them
+  glm::dmat3 frame{1.0};          ///< columns x, y, z in the mesh's axes; right-handed
+  glm::dvec3 centre{0.0};         ///< relative to the mesh's origin
+  double length = 0;              ///< extents of the points along x and y, mesh units
   double width = 0;
   double area = 0;  ///< squared mesh units, from the segmentation
 };

@@ -212,7 +212,7 @@ SweepResult sweep(const Fragment& a, const Fragment& b, const SweepOptions& opti
         if (context.cancelled()) return;
         const std::size_t i = k / patches_b.size();
         const std::size_t j = k % patches_b.size();
-        if (patches_a[i].faces.empty() || patches_b[j].faces.empty()) continue;
+        if (patches_a[i].points.empty() || patches_b[j].points.empty()) continue;
         body(k, patches_a[i], patches_b[j], Task{list_a[i], list_b[j]});
         const std::lock_guard lock(reporting);
         context.report("search", static_cast<double>(++done) / static_cast<double>(2 * pairs));

@@ -57,17 +57,22 @@ std::vector<glm::vec3> smooth_normals(const std::vector<glm::vec3>& normals, con
 /// Fracture normals averaged across the whole strip, so that growing follows the strip's course and not its
 /// bevels.
 std::vector<glm::vec3> strip_normals(const Segmentation& s) {
-  const Lists near = neighbours_within(s.samples, kStripRadius * s.wall_thickness);
+  const PointIndex index(s.samples.points);
+  const auto radius = static_cast<float>(kStripRadius * s.wall_thickness);
   std::vector<glm::vec3> smooth = s.normals;
-  for (std::size_t i = 0; i < smooth.size(); ++i) {
-    if (s.surface[i] != Surface::Fracture) continue;
-    glm::vec3 sum(0.0F);
-    for (const auto k : near[i]) {
-      if (s.surface[k] == Surface::Fracture && glm::dot(s.normals[k], s.normals[i]) > 0.0F)
-        sum += s.normals[k];
+  parallel_for(smooth.size(), 256, [&](std::size_t first, std::size_t last) {
+    std::vector<std::uint32_t> near;
+    for (std::size_t i = first; i < last; ++i) {
+      if (s.surface[i] != Surface::Fracture) continue;
+      index.within(s.samples.points[i], radius, near);
+      glm::vec3 sum(0.0F);
+      for (const auto k : near) {
+        if (s.surface[k] == Surface::Fracture && glm::dot(s.normals[k], s.normals[i]) > 0.0F)
+          sum += s.normals[k];
+      }
+      if (glm::length(sum) > 0.0F) smooth[i] = glm::normalize(sum);
     }
-    if (glm::length(sum) > 0.0F) smooth[i] = glm::normalize(sum);
-  }
+  });
   return smooth;
 }
 

@@ -13,6 +13,7 @@
 #include "zbuffer/detail/fixed_triangle.hpp"
 #include "zbuffer/detail/raster_kernel.hpp"
 #include "zbuffer/detail/slope_sums.hpp"
+#include "zbuffer/triangles.hpp"
 
 namespace rejoin::zbuffer::detail {
 namespace {
@@ -99,6 +100,37 @@ TEST(DrawSoup, EveryInstructionSetGivesTheSameBits) {
     const std::vector<float> again = drawn();
     EXPECT_EQ(std::memcmp(again.data(), first.data(), first.size() * sizeof(float)), 0);
   });
+}
+
+TEST(Triangles, TurnedTrianglesCoverWhatDrawCovers) {
+  const mesh::Mesh m = test::bumpy_sphere(3, 8);
+  const float angle = 0.7F;
+  const glm::mat3 linear(glm::vec3(20 * std::cos(angle), 20 * std::sin(angle), 0),
+                         glm::vec3(-20 * std::sin(angle), 20 * std::cos(angle), 0), glm::vec3(0, 0, -1));
+  const glm::vec3 offset(30, 25, 2);
+  DepthMap expected(60, 50);
+  std::vector<glm::vec3> moved;
+  for (const auto& v : m.vertices) moved.push_back(Projection{linear, offset}(v));
+  draw(moved, m.faces, expected);
+  DepthMap map(60, 50);
+  Triangles(m).draw(linear, offset, map);
+  int covered = 0;
+  for (std::size_t k = 0; k < map.depth.size(); ++k) {
+    ASSERT_EQ(std::isnan(map.depth[k]), std::isnan(expected.depth[k]));
+    if (std::isnan(map.depth[k])) continue;
+    EXPECT_NEAR(map.depth[k], expected.depth[k], 1e-5);  // sums of a few terms of about 3
+    ++covered;
+  }
+  EXPECT_GT(covered, 500);
+}
+
+TEST(Triangles, NoneLeaveTheMapAsItIs) {
+  DepthMap map(4, 4);
+  map.at(1, 2) = 5.0F;
+  Triangles().draw(glm::mat3(1.0F), glm::vec3(0.0F), map);
+  Triangles(mesh::Mesh()).draw(glm::mat3(1.0F), glm::vec3(0.0F), map);
+  EXPECT_EQ(map.at(1, 2), 5.0F);
+  EXPECT_TRUE(std::isnan(map.at(0, 0)));
 }
 
 TEST(DrawSoup, FarOutsideTheReachOfTheGridTheViewIsStillRight) {
