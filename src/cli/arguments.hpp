@@ -38,6 +38,22 @@ Choices<zbuffer::Backend> backend_choices();
 /// Lets only numbers from low to high through; NaN is outside.
 CLI::Validator in_range(double low, double high);
 
+/// What numbers an option takes, and the word for them in its help.
+struct NumberRange {
+  double low;
+  double high;
+  const char* word = "N";
+};
+
+/// Adds an option that takes a number of a range; NaN is outside.
+template <typename Number>
+CLI::Option* add_number(CLI::App& app, const std::string& name, Number& value, const NumberRange& range,
+                        const std::string& description) {
+  return app.add_option(name, value, description)
+      ->type_name(range.word)
+      ->check(in_range(range.low, range.high));
+}
+
 /// A direction "x,y,z", scaled to unit length.
 /// \throws UsageError not three finite numbers, or length 0
 glm::dvec3 parse_direction(const std::string& option, const std::string& text);

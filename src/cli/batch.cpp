@@ -48,9 +48,8 @@ class BatchCommand final : public Command {
     app.option_defaults()->group("Search");
     app.add_option("--shard", shard_, "do part I of N, into a folder of its own")->type_name("I/N");
     app.add_flag("--retry", options_.retry, "try again what failed before");
-    app.add_option("--resolution", options_.match.resolution, "pixels across a depth map, 8 to 2048 (128)")
-        ->type_name("N")
-        ->check(in_range(8, 2048));
+    add_number(app, "--resolution", options_.match.resolution, {8, 2048},
+               "pixels across a depth map, 8 to 2048 (128)");
     add_choice(app, "--backend", options_.match.backend, backend_choices(), "what draws");
     app.add_option("--seed", options_.match.seed, "of the random numbers (1)")->type_name("S");
   }

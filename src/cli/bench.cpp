@@ -108,9 +108,7 @@ class BenchCommand final : public Command {
         ->expected(1)
         ->take_all()
         ->check(in_range(1, 1 << 20));
-    app.add_option("--seconds", options_.seconds_per_row, "measured time a row (0.5)")
-        ->type_name("S")
-        ->check(in_range(0.001, 60));
+    add_number(app, "--seconds", options_.seconds_per_row, {0.001, 60, "S"}, "measured time a row (0.5)");
   }
 
   ExitCode run(Console& console, Context& context) override {

@@ -47,13 +47,10 @@ class CompareCommand final : public Command {
     app.add_option("--json", json_, "write all figures")->type_name("FILE")->group("Output");
     app.add_option("--out", out_, "write compare.png and compare.json")->type_name("DIR")->group("Output");
     app.option_defaults()->group("Measurement");
-    app.add_option("--resolution", options_.resolution, "pixels across a depth map, 8 to 2048 (128)")
-        ->type_name("N")
-        ->check(in_range(8, 2048));
+    add_number(app, "--resolution", options_.resolution, {8, 2048},
+               "pixels across a depth map, 8 to 2048 (128)");
     add_choice(app, "--backend", options_.drawing, backend_choices(), "what draws");
-    app.add_option("--steps", options_.steps, "poses each way in 5 directions, 0 to 3 (1)")
-        ->type_name("N")
-        ->check(in_range(0, 3));
+    add_number(app, "--steps", options_.steps, {0, 3}, "poses each way in 5 directions, 0 to 3 (1)");
   }
 
   ExitCode run(Console& console, Context& context) override {

@@ -35,20 +35,16 @@ void MatchOptions::define(CLI::App& app) {
   add_choice(app, "--constraint", constraint_, kConstraints, "what is known");
   add_directions(app, "--direction-a", directions_a_);
   add_directions(app, "--direction-b", directions_b_);
-  app.add_option("--tolerance", options_.tolerance_deg, "how far directions may be off (10)")
-      ->type_name("DEG")
-      ->check(in_range(0, 45));
+  add_number(app, "--tolerance", options_.tolerance_deg, {0, 45, "DEG"},
+             "how far directions may be off (10)");
   app.add_option("--material-a", material_a_, "axis of the material, such as its layers")->type_name("x,y,z");
   app.add_option("--material-b", material_b_, "the same of B")->type_name("x,y,z");
   add_facets(app, "--facets-a", options_.facets_a);
   add_facets(app, "--facets-b", options_.facets_b);
-  app.add_option("--resolution", options_.resolution, "pixels across a depth map, 8 to 2048 (128)")
-      ->type_name("N")
-      ->check(in_range(8, 2048));
+  add_number(app, "--resolution", options_.resolution, {8, 2048},
+             "pixels across a depth map, 8 to 2048 (128)");
   add_choice(app, "--backend", options_.backend, backend_choices(), "what draws");
-  app.add_option("--chains", options_.chains, "annealing chains side by side, 1 to 256 (8)")
-      ->type_name("N")
-      ->check(in_range(1, 256));
+  add_number(app, "--chains", options_.chains, {1, 256}, "annealing chains side by side, 1 to 256 (8)");
   app.add_option("--seed", options_.seed, "of the random numbers (1)")->type_name("S");
 }
 

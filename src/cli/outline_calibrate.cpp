@@ -30,10 +30,7 @@ class OutlineCalibrateCommand final : public Command {
         ->type_name("FILE")
         ->group("Input");
     app.add_option("--json", json_, "write the parameters")->type_name("FILE")->group("Output");
-    app.add_option("--scales", options_.scales, "scales, 1 to 8 (5)")
-        ->type_name("N")
-        ->check(in_range(1, 8))
-        ->group("Search");
+    add_number(app, "--scales", options_.scales, {1, 8}, "scales, 1 to 8 (5)")->group("Search");
     app.add_option("--seed", options_.seed, "of the random numbers (1)")->type_name("S")->group("Search");
   }
 

@@ -30,26 +30,16 @@ class OutlineShatterCommand final : public Command {
         ->group("Output");
     add_choice(app, "--format", format_, kFormats, "kind of files (csv)")->group("Output");
     app.option_defaults()->group("Objects");
-    CLI::Option* shapes = app.add_option("--shapes", shapes_, "random polygons to break, 1 to 10000 (1)")
-                              ->type_name("N")
-                              ->check(in_range(1, 10000));
-    app.add_option("--tiles", tiles_, "ceramic tiles of 100 to 150 mm a side instead")
-        ->type_name("N")
-        ->check(in_range(1, 10000))
+    CLI::Option* shapes =
+        add_number(app, "--shapes", shapes_, {1, 10000}, "random polygons to break, 1 to 10000 (1)");
+    add_number(app, "--tiles", tiles_, {1, 10000}, "ceramic tiles of 100 to 150 mm a side instead")
         ->excludes(shapes);
-    app.add_option("--pieces", options_.pieces, "in all, up to 100000 (8)")
-        ->type_name("N")
-        ->check(in_range(1, 100000));
-    app.add_option("--resolution", resolution_, "shapes: pixels a unit (100); tiles: dpi (300)")
-        ->type_name("N")
-        ->check(in_range(10, 2400));
+    add_number(app, "--pieces", options_.pieces, {1, 100000}, "in all, up to 100000 (8)");
+    add_number(app, "--resolution", resolution_, {10, 2400}, "shapes: pixels a unit (100); tiles: dpi (300)");
     app.option_defaults()->group("Damage");
-    app.add_option("--wear", options_.wear, "pixels worn off the edges, 0 to 20 (0)")
-        ->type_name("PX")
-        ->check(in_range(0, 20));
-    app.add_option("--noise", options_.noise, "deviation of the scanned edge, 0 to 3 pixels (0)")
-        ->type_name("PX")
-        ->check(in_range(0, 3));
+    add_number(app, "--wear", options_.wear, {0, 20, "PX"}, "pixels worn off the edges, 0 to 20 (0)");
+    add_number(app, "--noise", options_.noise, {0, 3, "PX"},
+               "deviation of the scanned edge, 0 to 3 pixels (0)");
     app.add_flag("--flip", options_.flip, "about half of the pieces lie upside down");
     app.add_option("--seed", options_.seed, "of the random numbers (1)")->type_name("S");
   }

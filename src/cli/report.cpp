@@ -20,12 +20,9 @@ class ReportCommand final : public Command {
         ->group("Input");
     app.add_option("--out", out_, "the page (RUN/report.html)")->type_name("FILE")->group("Output");
     app.option_defaults()->group("Size");
-    app.add_option("--pictures", options_.pictured_joins, "joins that get pictures (60)")
-        ->type_name("N")
-        ->check(in_range(0, 10000));
-    app.add_option("--faces", options_.fragment_faces, "faces a fragment in the 3D view, at most (16000)")
-        ->type_name("N")
-        ->check(in_range(64, 1e6));
+    add_number(app, "--pictures", options_.pictured_joins, {0, 10000}, "joins that get pictures (60)");
+    add_number(app, "--faces", options_.fragment_faces, {64, 1e6},
+               "faces a fragment in the 3D view, at most (16000)");
   }
 
   ExitCode run(Console& console, Context& context) override {

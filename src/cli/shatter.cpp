@@ -58,13 +58,14 @@ class ShatterCommand final : public Command {
         ->required()
         ->group("Output");
     app.option_defaults()->group("Break (lengths in percent of the diameter)");
-    number(app, "--pieces", options_.pieces, 2, 10000, "how many fragments, 2 to 10000 (8)");
+    add_number(app, "--pieces", options_.pieces, {2, 10000}, "how many fragments, 2 to 10000 (8)");
     app.add_option("--seed", options_.seed, "another seed, another break (1)")->type_name("N");
-    number(app, "--roughness", options_.roughness, 0, 4, "of the breaks: 0 plane, 1 stone, up to 4 (1)");
-    number(app, "--erosion", erosion_, 0, 5, "radius of worn edges, 0 to 5 (0.1)");
-    number(app, "--chips", options_.chips, 0, 100, "mean number of chips off a fragment (3)");
-    number(app, "--noise", noise_, 0, 1, "deviation of the scanner, 0 to 1 (0.01)");
-    number(app, "--spacing", spacing_, 0.05, 5, "edge length of the meshes, 0.05 to 5 (0.4)");
+    add_number(app, "--roughness", options_.roughness, {0, 4},
+               "of the breaks: 0 plane, 1 stone, up to 4 (1)");
+    add_number(app, "--erosion", erosion_, {0, 5}, "radius of worn edges, 0 to 5 (0.1)");
+    add_number(app, "--chips", options_.chips, {0, 100}, "mean number of chips off a fragment (3)");
+    add_number(app, "--noise", noise_, {0, 1}, "deviation of the scanner, 0 to 1 (0.01)");
+    add_number(app, "--spacing", spacing_, {0.05, 5}, "edge length of the meshes, 0.05 to 5 (0.4)");
   }
 
   ExitCode run(Console& console, Context& context) override {
@@ -89,12 +90,6 @@ class ShatterCommand final : public Command {
   }
 
  private:
-  template <typename Number>
-  static void number(CLI::App& app, const std::string& name, Number& value, double low, double high,
-                     const std::string& description) {
-    app.add_option(name, value, description)->type_name("N")->check(in_range(low, high));
-  }
-
   std::string path_;
   std::string out_;
   double erosion_ = 0.1;
