@@ -18,7 +18,14 @@ constexpr int kShift = 8;  // binary places of polygon corners
 constexpr double kMargin = 8.0;
 constexpr std::size_t kMaxPixels = 120000000;
 
-/// The group's frame -> pixels.
+/// A piece where it lies, with its number in the set.
+struct Placed {
+  const Piece* piece;
+  Planar pose;
+  std::size_t number;
+};
+
+/// The common frame -> pixels.
 struct View {
   glm::dvec2 low{std::numeric_limits<double>::max()};
   double scale = 1.0;
@@ -34,21 +41,19 @@ bool is_picture(const Piece& piece) {
   return std::find(kKinds.begin(), kKinds.end(), kind) != kKinds.end();
 }
 
-View view_of(const std::vector<Piece>& pieces, const Assembly& assembly,
-             const std::vector<std::size_t>& members, const PictureOptions& options) {
+View view_of(const std::vector<Placed>& members, const PictureOptions& options) {
   View view;
   glm::dvec2 high(-std::numeric_limits<double>::max());
-  for (const std::size_t i : members) {
-    for (const glm::dvec2& p : pieces[i].outline.points) {
-      const glm::dvec2 placed = assembly.placements[i].pose(p);
-      view.low = glm::min(view.low, placed);
-      high = glm::max(high, placed);
+  for (const auto& [piece, pose, number] : members) {
+    for (const glm::dvec2& p : piece->outline.points) {
+      view.low = glm::min(view.low, pose(p));
+      high = glm::max(high, pose(p));
     }
   }
   const glm::dvec2 extent = high - view.low;
   const double longest = std::max(extent.x, extent.y);
-  const bool pictures =
-      std::all_of(members.begin(), members.end(), [&](std::size_t i) { return is_picture(pieces[i]); });
+  const bool pictures = std::all_of(members.begin(), members.end(),
+                                    [](const Placed& placed) { return is_picture(*placed.piece); });
   view.scale = pictures ? std::min(1.0, options.longest_side / longest) : options.drawn_side / longest;
   view.size = cv::Size(static_cast<int>(extent.x * view.scale + 2.0 * kMargin) + 1,
                        static_cast<int>(extent.y * view.scale + 2.0 * kMargin) + 1);
@@ -132,60 +137,66 @@ void lay(cv::Mat canvas, const cv::Mat& colours, const cv::Mat& mask) {
   }
 }
 
-void write(const std::filesystem::path& path, const cv::Mat& image) {
+std::vector<std::uint8_t> png_of(const cv::Mat& image) {
   std::vector<std::uint8_t> bytes;
   cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 6});
+  return bytes;
+}
+
+void write(const std::filesystem::path& path, const cv::Mat& image) {
+  const std::vector<std::uint8_t> bytes = png_of(image);
   write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
-cv::Mat object_picture(const std::vector<Piece>& pieces, const Assembly& assembly,
-                       const std::vector<std::size_t>& members, const View& view) {
+cv::Mat object_picture(const std::vector<Placed>& members, const View& view) {
   cv::Mat canvas(view.size, CV_8UC4, cv::Scalar(0, 0, 0, 0));
-  for (const std::size_t i : members) {
-    const Planar& pose = assembly.placements[i].pose;
-    const cv::Rect region = region_of(pieces[i], pose, view);
-    const cv::Mat mask = mask_of(pieces[i], pose, view, region);
-    const cv::Mat colours = is_picture(pieces[i]) ? colours_of(pieces[i], pose, view, region)
-                                                  : cv::Mat(region.size(), CV_8UC3, colour_of(i));
+  for (const auto& [piece, pose, number] : members) {
+    const cv::Rect region = region_of(*piece, pose, view);
+    const cv::Mat mask = mask_of(*piece, pose, view, region);
+    const cv::Mat colours = is_picture(*piece) ? colours_of(*piece, pose, view, region)
+                                               : cv::Mat(region.size(), CV_8UC3, colour_of(number));
     lay(canvas(region), colours, mask);
   }
   return canvas;
 }
 
 /// Draws a's border in red where it lies along b's.
-void draw_boundary(cv::Mat& canvas, const Outline& a, const Planar& pose_a, const Outline& b,
-                   const Planar& pose_b, const View& view) {
+void draw_boundary(cv::Mat& canvas, const Placed& a, const Placed& b, const View& view) {
   const double reach = 6.0 / view.scale;
-  const DistanceField field(b.points, reach / 3.0, reach);
-  const Planar a_to_b = inverse(pose_b) * pose_a;
-  for (std::size_t i = 0; i < a.points.size(); ++i) {
-    const glm::dvec2& from = a.points[i];
-    const glm::dvec2& to = a.points[(i + 1) % a.points.size()];
+  const DistanceField field(b.piece->outline.points, reach / 3.0, reach);
+  const Planar a_to_b = inverse(b.pose) * a.pose;
+  const std::vector<glm::dvec2>& border = a.piece->outline.points;
+  for (std::size_t i = 0; i < border.size(); ++i) {
+    const glm::dvec2& from = border[i];
+    const glm::dvec2& to = border[(i + 1) % border.size()];
     if (std::abs(field(a_to_b(from))) > 0.9 * reach || std::abs(field(a_to_b(to))) > 0.9 * reach) continue;
-    const std::vector<cv::Point> line = corners({from, to}, pose_a, view, {0, 0});
+    const std::vector<cv::Point> line = corners({from, to}, a.pose, view, {0, 0});
     cv::line(canvas, line[0], line[1], cv::Scalar(40, 40, 220, 255), 3, cv::LINE_AA, kShift);
   }
 }
 
-cv::Mat joins_picture(const std::vector<Piece>& pieces, const Assembly& assembly,
-                      const std::vector<std::size_t>& members, const View& view) {
+cv::Mat joins_picture(const std::vector<Placed>& members, const std::vector<AssemblyJoin>& joins,
+                      const View& view) {
   cv::Mat canvas(view.size, CV_8UC4, cv::Scalar(255, 255, 255, 255));
-  for (const std::size_t i : members) {
-    const cv::Rect region = region_of(pieces[i], assembly.placements[i].pose, view);
-    const cv::Mat mask = mask_of(pieces[i], assembly.placements[i].pose, view, region);
-    const double grey = 205.0 + 8.0 * static_cast<double>(i % 4);
+  for (const auto& [piece, pose, number] : members) {
+    const cv::Rect region = region_of(*piece, pose, view);
+    const cv::Mat mask = mask_of(*piece, pose, view, region);
+    const double grey = 205.0 + 8.0 * static_cast<double>(number % 4);
     lay(canvas(region), cv::Mat(region.size(), CV_8UC3, cv::Scalar(grey, grey, grey)), mask);
   }
-  for (const AssemblyJoin& join : assembly.joins) {
-    if (std::find(members.begin(), members.end(), join.a) == members.end()) continue;
-    draw_boundary(canvas, pieces[join.a].outline, assembly.placements[join.a].pose, pieces[join.b].outline,
-                  assembly.placements[join.b].pose, view);
+  const auto member = [&](std::size_t number) {
+    return std::find_if(members.begin(), members.end(),
+                        [&](const Placed& placed) { return placed.number == number; });
+  };
+  for (const AssemblyJoin& join : joins) {
+    const auto a = member(join.a);
+    if (a != members.end()) draw_boundary(canvas, *a, *member(join.b), view);
   }
-  for (const std::size_t i : members) {
-    const cv::Rect region = region_of(pieces[i], assembly.placements[i].pose, view);
+  for (const auto& [piece, pose, number] : members) {
+    const cv::Rect region = region_of(*piece, pose, view);
     const cv::Point middle(region.x + region.width / 2 - 10, region.y + region.height / 2 + 6);
-    cv::putText(canvas, std::to_string(i), middle, cv::FONT_HERSHEY_SIMPLEX, 0.6, cv::Scalar(60, 60, 60, 255),
-                1, cv::LINE_AA);
+    cv::putText(canvas, std::to_string(number), middle, cv::FONT_HERSHEY_SIMPLEX, 0.6,
+                cv::Scalar(60, 60, 60, 255), 1, cv::LINE_AA);
   }
   return canvas;
 }
@@ -209,19 +220,26 @@ cv::Mat similarity_picture(const std::vector<std::vector<double>>& similarity) {
 
 }  // namespace
 
+std::vector<std::uint8_t> assembled_png(const std::vector<Piece>& pieces, const std::vector<Planar>& poses,
+                                        const PictureOptions& options) {
+  std::vector<Placed> members;
+  for (std::size_t i = 0; i < pieces.size(); ++i) members.push_back({&pieces[i], poses[i], i});
+  return png_of(object_picture(members, view_of(members, options)));
+}
+
 void write_assembly_pictures(const std::filesystem::path& folder, const std::vector<Piece>& pieces,
                              const Assembly& assembly, const PictureOptions& options) {
-  std::vector<std::vector<std::size_t>> objects;
+  std::vector<std::vector<Placed>> objects;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const std::size_t group = assembly.placements[i].group;
+    const auto& [pose, group, confidence] = assembly.placements[i];
     if (group >= objects.size()) objects.resize(group + 1);
-    objects[group].push_back(i);
+    objects[group].push_back({&pieces[i], pose, i});
   }
   for (std::size_t k = 0; k < objects.size() && k < options.most_objects && objects[k].size() > 1; ++k) {
-    const View view = view_of(pieces, assembly, objects[k], options);
+    const View view = view_of(objects[k], options);
     const std::string number = std::to_string(k + 1);
-    write(folder / ("object_" + number + ".png"), object_picture(pieces, assembly, objects[k], view));
-    write(folder / ("joins_" + number + ".png"), joins_picture(pieces, assembly, objects[k], view));
+    write(folder / ("object_" + number + ".png"), object_picture(objects[k], view));
+    write(folder / ("joins_" + number + ".png"), joins_picture(objects[k], assembly.joins, view));
   }
   if (!assembly.similarity.empty()) write(folder / "similarity.png", similarity_picture(assembly.similarity));
 }

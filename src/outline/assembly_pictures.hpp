@@ -1,6 +1,7 @@
-/// Pictures of an assembly.
+/// Pictures of placed pieces.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <vector>
 
@@ -14,9 +15,15 @@ struct PictureOptions {
   std::size_t most_objects = 16;  ///< drawn, the largest first
 };
 
+/// Placed pieces as one picture, PNG bytes: in the pictures' own colours (pieces from outlines get one each), transparent
+/// outside.
+/// \param poses  of each piece into one frame   \pre pieces is not empty, as many poses as pieces
+/// \throws IoError, InputError  a piece's picture cannot be read again
+std::vector<std::uint8_t> assembled_png(const std::vector<Piece>& pieces, const std::vector<Planar>& poses,
+                                        const PictureOptions& options = {});
+
 /// Writes into a folder, each file whole or not at all:
-/// - object_1.png ..: the pieces of an object in their places, in the pictures' own colours (pieces from outlines get one
-///   each), transparent outside
+/// - object_1.png ..: the pieces of an object in their places, see assembled_png()
 /// - joins_1.png ..: the same pieces in grey with their common boundaries in red and their numbers
 /// - similarity.png: length of the common border of each pair, a square of cells, dark = none
 /// \throws IoError a picture cannot be read again or a file cannot be written

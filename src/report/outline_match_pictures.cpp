@@ -6,6 +6,8 @@
 #include <string_view>
 
 #include "core/files.hpp"
+#include "core/smooth.hpp"
+#include "outline/assembly_pictures.hpp"
 #include "outline/signal.hpp"
 #include "report/canvas.hpp"
 #include "report/outline_pictures.hpp"
@@ -99,7 +101,7 @@ std::vector<double> curvature_along(const Polygon& border, double begin, double 
   const auto count =
       static_cast<std::size_t>(std::max(8.0, std::round(outline::perimeter(border) / std::abs(step))));
   Polygon even = outline::resample(border, count);
-  const std::vector<double> bends = outline::curvature(outline::smooth(even, kSmooth));
+  const std::vector<double> bends = outline::curvature(smooth(even, kSmooth));
   const double own = outline::perimeter(border) / static_cast<double>(count);
   std::vector<double> result;
   result.reserve(kSamples);
@@ -171,7 +173,7 @@ void write_outline_match_pictures(const std::filesystem::path& folder, const out
     const outline::JoinCandidate& best = result.candidates.front();
     draw_joined(image, a, b, best);
     draw_curvatures(image, a.outline, b.outline, best.boundary);
-    const std::vector<std::uint8_t> bytes = assembled_png({a, b}, {{}, best.pose});
+    const std::vector<std::uint8_t> bytes = outline::assembled_png({a, b}, {{}, best.pose});
     rejoin::write_file(folder / "joined.png", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   }
   write_png(folder / "match.png", image);
