@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/median.hpp"
 #include "mesh/point_index.hpp"
 
 namespace rejoin::match {
@@ -124,13 +125,6 @@ Rigid moved(const Rigid& pose, const Vector6& step, const glm::dvec3& pivot) {
 /// Step that visits at most `most` of `count` items; most <= 0: all.
 std::size_t stride(std::size_t count, int most) {
   return most > 0 ? std::max<std::size_t>(1, count / static_cast<std::size_t>(most)) : 1;
-}
-
-double median(std::vector<double>& values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/median.hpp"
 #include "core/parallel.hpp"
 #include "mesh/point_index.hpp"
 
@@ -50,13 +51,6 @@ std::pair<std::uint32_t, std::uint32_t> extremes(const std::vector<glm::vec3>& v
     }
   }
   return result;
-}
-
-double median(std::vector<float>& values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 double cloud_spacing(const Mesh& mesh) {

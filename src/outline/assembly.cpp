@@ -46,14 +46,6 @@ struct Bundle {
   std::vector<std::size_t> links;
 };
 
-double median_length(const std::vector<Piece>& pieces) {
-  std::vector<double> lengths;
-  lengths.reserve(pieces.size());
-  for (const Piece& piece : pieces) lengths.push_back(perimeter(piece.outline.points));
-  std::nth_element(lengths.begin(), lengths.begin() + static_cast<long>(lengths.size() / 2), lengths.end());
-  return lengths[lengths.size() / 2];
-}
-
 std::vector<Silhouette> silhouettes(const std::vector<Piece>& pieces, double step) {
   std::vector<std::unique_ptr<Silhouette>> made(pieces.size());
   parallel_for(pieces.size(), 1, [&](std::size_t first, std::size_t last) {
@@ -119,7 +111,7 @@ std::vector<PairResult> best_of(const std::vector<PairResult>& pairs, std::size_
 /// The step, file units, at which the best candidates say most.
 double fitting_step(const std::vector<Piece>& pieces, const std::vector<PairResult>& pairs,
                     const AssemblyOptions& options) {
-  const double length = median_length(pieces);
+  const double length = median_perimeter(pieces);
   const std::vector<PairResult> best = best_of(pairs, 2 * pieces.size());
   double most = -1.0;
   double step = length;

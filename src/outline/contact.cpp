@@ -3,7 +3,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "outline/property_plot.hpp"
+#include "core/smooth.hpp"
+#include "outline/signal.hpp"
 
 namespace rejoin::outline {
 namespace {
@@ -76,7 +77,7 @@ double information(const Side& side) {
 
 Silhouette::Silhouette(const Outline& outline, double wanted_step, double smoothing)
     : step(0.0), low(0.0), high(0.0), field(outline.points, wanted_step, kReach * wanted_step) {
-  points = smoothed(resampled(outline.points, wanted_step), smoothing);
+  points = smooth(resample_by(outline.points, wanted_step), smoothing);
   step = perimeter(outline.points) / static_cast<double>(points.size());
   low = high = points[0];
   normals.reserve(points.size());

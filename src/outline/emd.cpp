@@ -37,14 +37,6 @@ struct ScaledPiece {
   Silhouette silhouette;
 };
 
-double median_length(const std::vector<Piece>& pieces) {
-  std::vector<double> lengths;
-  lengths.reserve(pieces.size());
-  for (const Piece& piece : pieces) lengths.push_back(perimeter(piece.outline.points));
-  std::nth_element(lengths.begin(), lengths.begin() + static_cast<long>(lengths.size() / 2), lengths.end());
-  return lengths[lengths.size() / 2];
-}
-
 /// What a stretch must keep within the tolerance.
 enum class Measure { EarthMover, Frechet };
 
@@ -55,7 +47,7 @@ class EmdMatcher final : public Matcher {
   void prepare(const std::vector<Piece>& pieces) override {
     scales_.clear();
     if (pieces.empty()) return;
-    const double length = median_length(pieces);
+    const double length = median_perimeter(pieces);
     if (!(length > 0.0)) throw InputError(pieces[0].name, "has a border of no length", "give an outline");
     for (const double samples : options_.samples) {
       std::vector<std::unique_ptr<ScaledPiece>> scaled(pieces.size());

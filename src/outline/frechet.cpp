@@ -94,26 +94,13 @@ class Walk {
 }  // namespace
 
 Planar aligned(const PropertyPlot& a, const PropertyPlot& b, const Stretch& stretch) {
-  glm::dvec2 centre_a(0.0);
-  glm::dvec2 centre_b(0.0);
-  const std::size_t count = stretch.a.size();
-  for (std::size_t k = 0; k < count; ++k) {
-    centre_a += sample(a, stretch.a[k]);
-    centre_b += sample(b, stretch.b[k]);
+  std::vector<glm::dvec2> on_a;
+  std::vector<glm::dvec2> on_b;
+  for (std::size_t k = 0; k < stretch.a.size(); ++k) {
+    on_a.push_back(sample(a, stretch.a[k]));
+    on_b.push_back(sample(b, stretch.b[k]));
   }
-  centre_a /= static_cast<double>(count);
-  centre_b /= static_cast<double>(count);
-  double cosine = 0.0;
-  double sine = 0.0;
-  for (std::size_t k = 0; k < count; ++k) {
-    const glm::dvec2 p = sample(b, stretch.b[k]) - centre_b;
-    const glm::dvec2 q = sample(a, stretch.a[k]) - centre_a;
-    cosine += glm::dot(p, q);
-    sine += p.x * q.y - p.y * q.x;
-  }
-  Planar pose{std::atan2(sine, cosine), {}, false};
-  pose.translation = centre_a - pose.direction(centre_b);
-  return pose;
+  return superposed(on_b, on_a);
 }
 
 Stretch longest_frechet(const PropertyPlot& a, const PropertyPlot& b, const Moment& moment,

@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/median.hpp"
 #include "core/parallel.hpp"
 #include "outline/detail/closest.hpp"
+#include "outline/detail/coding.hpp"
 #include "outline/detail/distance_grid.hpp"
 #include "outline/detail/evidence.hpp"
 #include "outline/signal.hpp"
@@ -18,10 +20,8 @@ constexpr std::size_t kFitScale = 1;
 constexpr int kGridCells = 96;
 /// Borders may be off each other by this many steps of the fit's scale.
 constexpr double kToleranceSteps = 3.0;
-/// Turning beyond this many standard deviations (from the median of its size) is cut off.
+/// Turning beyond this many times the usual is cut off.
 constexpr double kTurningLimit = 4.0;
-/// A normal distribution's deviation from the median of its absolute values.
-constexpr double kFromMedian = 1.4826;
 /// Overlap that costs a factor e of evidence, share of the smaller piece.
 constexpr double kOverlapScale = 0.03;
 /// The same as a mean depth along the boundary, tolerances.
@@ -33,12 +33,6 @@ constexpr double kSameAngle = 5.0 * M_PI / 180.0;
 /// See score_of().
 constexpr double kEvenEvidence = 20.0;
 constexpr double kEvidenceScale = 3.0;
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 double automatic_step(const std::vector<Piece>& pieces) {
   std::vector<double> edges;
@@ -67,13 +61,8 @@ struct JoinFitter::State {
   }
 
   void find_limits() {
-    for (std::size_t k = 0; k < scales[0].size(); ++k) {
-      std::vector<double> sizes;
-      for (const auto& piece : scales) {
-        for (const float t : piece[k].turning) sizes.push_back(std::abs(static_cast<double>(t)));
-      }
-      limits.push_back(kTurningLimit * kFromMedian * median(sizes));
-    }
+    for (std::size_t k = 0; k < scales[0].size(); ++k)
+      limits.push_back(kTurningLimit * detail::usual_turning(scales, k));
   }
 
   /// Area that lies deeper than `ignored` in both.

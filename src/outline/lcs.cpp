@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/median.hpp"
 #include "outline/detail/lcs_scale.hpp"
 
 namespace rejoin::outline {
@@ -23,9 +24,7 @@ double median_spacing(const std::vector<Piece>& pieces) {
   spacings.reserve(pieces.size());
   for (const Piece& piece : pieces)
     spacings.push_back(perimeter(piece.outline.points) / static_cast<double>(piece.outline.points.size()));
-  std::nth_element(spacings.begin(), spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2),
-                   spacings.end());
-  return spacings[spacings.size() / 2];
+  return median(spacings);
 }
 
 /// As the files' points lie, within what can be told apart and what can be compared in time.

@@ -8,6 +8,11 @@
 
 namespace rejoin::outline {
 
+/// Sine of the angle from a to b times both lengths: positive where b is on the left of a (with y up).
+inline double cross(const glm::dvec2& a, const glm::dvec2& b) {
+  return a.x * b.y - a.y * b.x;
+}
+
 /// Motion of the plane: x -> R(angle) * (flipped ? (x, -y) : (x, y)) + translation.  `flipped`: the piece lies upside down.
 struct Planar {
   double angle_rad = 0.0;
@@ -33,6 +38,10 @@ Planar inverse(const Planar& a);
 
 /// Angle between the turns of two motions, radians in 0 .. pi; pi if just one of them is flipped.
 double angle_between(const Planar& a, const Planar& b);
+
+/// The motion without turning over that takes `from` to `to` with the least sum of squared distances.
+/// \pre as many points in both, at least one
+Planar superposed(const std::vector<glm::dvec2>& from, const std::vector<glm::dvec2>& to);
 
 /// The same motion as a matrix for (x, y, 1); glm is column major: matrix[column][row].
 glm::dmat3 matrix(const Planar& pose);
@@ -82,6 +91,10 @@ double signed_area(const std::vector<glm::dvec2>& polygon);
 /// Length of a closed polygon.
 double perimeter(const std::vector<glm::dvec2>& polygon);
 
+/// The middle one of the pieces' perimeters, the upper one of an even count.
+/// \pre not empty
+double median_perimeter(const std::vector<Piece>& pieces);
+
 /// Arc length from the first point to each point, and the perimeter at the end: polygon.size() + 1 numbers.
 std::vector<double> arc_lengths(const std::vector<glm::dvec2>& polygon);
 
@@ -89,5 +102,18 @@ std::vector<double> arc_lengths(const std::vector<glm::dvec2>& polygon);
 /// \param lengths  arc_lengths(polygon)
 glm::dvec2 point_at(const std::vector<glm::dvec2>& polygon, const std::vector<double>& lengths,
                     double distance);
+
+/// A point of a closed polygon: on the edge that begins at point `edge`, `share` (0..1) of its length along.
+struct EdgePlace {
+  std::size_t edge = 0;
+  double share = 0.0;
+};
+
+/// Evenly spaced places along a closed polygon, beginning with its first point.
+/// \param lengths  arc_lengths() of the polygon
+std::vector<EdgePlace> even_places(const std::vector<double>& lengths, std::size_t count);
+
+/// The point at a place of a closed polygon.
+glm::dvec2 point_at(const std::vector<glm::dvec2>& polygon, const EdgePlace& place);
 
 }  // namespace rejoin::outline

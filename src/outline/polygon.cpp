@@ -20,23 +20,6 @@ constexpr std::size_t kLeastPoints = 4;
 /// With more loops the file is no outline.
 constexpr std::size_t kMostLoops = 500;
 
-double cross(const glm::dvec2& a, const glm::dvec2& b) {
-  return a.x * b.y - a.y * b.x;
-}
-
-/// Where two segments meet; nullopt: nowhere, or they are parallel.
-std::optional<glm::dvec2> meet(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c,
-                               const glm::dvec2& d) {
-  const glm::dvec2 ab = b - a;
-  const glm::dvec2 cd = d - c;
-  const double denominator = cross(ab, cd);
-  if (denominator == 0.0) return std::nullopt;
-  const double s = cross(c - a, cd) / denominator;
-  const double t = cross(c - a, ab) / denominator;
-  if (s < 0.0 || s > 1.0 || t < 0.0 || t > 1.0) return std::nullopt;
-  return a + s * ab;
-}
-
 /// Edges sorted into square cells, so that only near ones are compared.
 class EdgeGrid {
  public:
@@ -154,6 +137,17 @@ bool contains(const Polygon& polygon, const glm::dvec2& point) {
   return inside;
 }
 
+std::optional<glm::dvec2> meeting(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c,
+                                  const glm::dvec2& d) {
+  const glm::dvec2 ab = b - a;
+  const glm::dvec2 cd = d - c;
+  const double denominator = cross(ab, cd);
+  if (denominator == 0.0) return std::nullopt;
+  const glm::dvec2 shares(cross(c - a, cd) / denominator, cross(c - a, ab) / denominator);
+  if (shares.x < 0.0 || shares.x > 1.0 || shares.y < 0.0 || shares.y > 1.0) return std::nullopt;
+  return shares;
+}
+
 std::optional<Crossing> find_crossing(const Polygon& polygon) {
   const std::size_t count = polygon.size();
   if (count < 4) return std::nullopt;
@@ -163,8 +157,8 @@ std::optional<Crossing> find_crossing(const Polygon& polygon) {
     grid.visit_later(i, [&](std::size_t j) {
       if (j < i + 2 || (i == 0 && j + 1 == count)) return;
       if (found && found->second <= j) return;
-      const auto point = meet(polygon[i], polygon[i + 1], polygon[j], polygon[(j + 1) % count]);
-      if (point) found = Crossing{i, j, *point};
+      const auto shares = meeting(polygon[i], polygon[i + 1], polygon[j], polygon[(j + 1) % count]);
+      if (shares) found = Crossing{i, j, polygon[i] + shares->x * (polygon[i + 1] - polygon[i])};
     });
     if (found) return found;
   }

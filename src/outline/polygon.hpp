@@ -12,6 +12,11 @@ namespace rejoin::outline {
 /// Whether a point lies inside a closed polygon (even-odd rule; either answer on the border itself).
 bool contains(const std::vector<glm::dvec2>& polygon, const glm::dvec2& point);
 
+/// Shares (0..1) of the way from a to b and from c to d at which the two segments meet; nullopt: nowhere, or they are
+/// parallel.
+std::optional<glm::dvec2> meeting(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c,
+                                  const glm::dvec2& d);
+
 /// Two edges of a closed polygon that cross or touch without being neighbours, with the point; edge i runs from point i to
 /// the next.  The pair with the least first edge; nullopt: the polygon is simple.  About n log n for outlines of even
 /// edges.

@@ -8,13 +8,6 @@
 
 namespace rejoin::outline {
 
-/// Points at equal arc-length steps along a closed polygon.
-/// \param step  wanted, file units; at least 16 points are made
-std::vector<glm::dvec2> resampled(const std::vector<glm::dvec2>& polygon, double step);
-
-/// Closed curve smoothed by a Gaussian of `deviation` samples; 0: unchanged.
-std::vector<glm::dvec2> smoothed(const std::vector<glm::dvec2>& points, double deviation);
-
 /// What makes a plot.
 struct PlotOptions {
   double step = 1.0;       ///< between samples, file units

@@ -3,43 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/smooth.hpp"
+
 namespace rejoin::outline {
 namespace {
 
-constexpr double kReach = 3.5;  ///< where a Gaussian ends, standard deviations
 constexpr std::size_t kLeastSamples = 8;
-
-template <typename Value>
-std::vector<Value> convolve(const std::vector<Value>& values, double deviation) {
-  if (deviation <= 0.0 || values.empty()) return values;
-  const auto reach = static_cast<std::ptrdiff_t>(std::ceil(kReach * deviation));
-  std::vector<double> weights(static_cast<std::size_t>(reach) + 1);
-  double sum = 0.0;
-  for (std::ptrdiff_t k = 0; k <= reach; ++k) {
-    const double x = static_cast<double>(k) / deviation;
-    weights[static_cast<std::size_t>(k)] = std::exp(-0.5 * x * x);
-    sum += weights[static_cast<std::size_t>(k)] * (k == 0 ? 1.0 : 2.0);
-  }
-  const auto count = static_cast<std::ptrdiff_t>(values.size());
-  // Laid out with its ends repeated, so that the inner loop knows no wrap.
-  std::vector<Value> around(values.size() + 2 * static_cast<std::size_t>(reach));
-  for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(around.size()); ++i)
-    around[static_cast<std::size_t>(i)] =
-        values[static_cast<std::size_t>((((i - reach) % count) + count) % count)];
-  std::vector<Value> result(values.size());
-  for (std::ptrdiff_t i = 0; i < count; ++i) {
-    const Value* centre = around.data() + i + reach;
-    Value total = weights[0] * centre[0];
-    for (std::ptrdiff_t k = 1; k <= reach; ++k)
-      total += weights[static_cast<std::size_t>(k)] * (centre[k] + centre[-k]);
-    result[static_cast<std::size_t>(i)] = total / sum;
-  }
-  return result;
-}
-
-double cross(const glm::dvec2& a, const glm::dvec2& b) {
-  return a.x * b.y - a.y * b.x;
-}
+constexpr std::size_t kFewestPoints = 16;
 
 /// Angle from the edge before each point to the edge after it.
 std::vector<float> turning_of(const std::vector<glm::dvec2>& points) {
@@ -63,14 +33,9 @@ ScaleSignal scale_of(const std::vector<glm::dvec2>& border, double fine, double 
   signal.step = lengths.back() / static_cast<double>(count);
   signal.points.reserve(count);
   signal.places.reserve(count);
-  std::size_t edge = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double at = signal.step * static_cast<double>(i);
-    while (edge + 1 < smoothed.size() && lengths[edge + 1] <= at) ++edge;
-    const double length = lengths[edge + 1] - lengths[edge];
-    const double share = length > 0.0 ? (at - lengths[edge]) / length : 0.0;
-    signal.points.push_back(glm::mix(smoothed[edge], smoothed[(edge + 1) % smoothed.size()], share));
-    signal.places.push_back((static_cast<double>(edge) + share) * fine);
+  for (const EdgePlace& place : even_places(lengths, count)) {
+    signal.points.push_back(point_at(smoothed, place));
+    signal.places.push_back((static_cast<double>(place.edge) + place.share) * fine);
   }
   signal.turning = turning_of(signal.points);
   return signal;
@@ -79,30 +44,16 @@ ScaleSignal scale_of(const std::vector<glm::dvec2>& border, double fine, double 
 }  // namespace
 
 std::vector<glm::dvec2> resample(const std::vector<glm::dvec2>& polygon, std::size_t count) {
-  const std::vector<double> lengths = arc_lengths(polygon);
   std::vector<glm::dvec2> result;
   result.reserve(count);
-  std::size_t edge = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double at = lengths.back() * static_cast<double>(i) / static_cast<double>(count);
-    while (edge + 1 < polygon.size() && lengths[edge + 1] <= at) ++edge;
-    const double length = lengths[edge + 1] - lengths[edge];
-    result.push_back(glm::mix(polygon[edge], polygon[(edge + 1) % polygon.size()],
-                              length > 0.0 ? (at - lengths[edge]) / length : 0.0));
-  }
+  for (const EdgePlace& place : even_places(arc_lengths(polygon), count))
+    result.push_back(point_at(polygon, place));
   return result;
 }
 
-std::vector<glm::dvec2> smooth(const std::vector<glm::dvec2>& points, double deviation) {
-  return convolve(points, deviation);
-}
-
-std::vector<double> smooth(const std::vector<double>& values, double deviation) {
-  return convolve(values, deviation);
-}
-
-std::vector<glm::dvec3> smooth(const std::vector<glm::dvec3>& values, double deviation) {
-  return convolve(values, deviation);
+std::vector<glm::dvec2> resample_by(const std::vector<glm::dvec2>& polygon, double step) {
+  const auto wanted = static_cast<std::size_t>(std::lround(perimeter(polygon) / step));
+  return resample(polygon, std::max(kFewestPoints, wanted));
 }
 
 std::vector<double> curvature(const std::vector<glm::dvec2>& points) {

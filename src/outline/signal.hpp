@@ -13,13 +13,8 @@ namespace rejoin::outline {
 /// \pre count >= 1, the perimeter is positive
 std::vector<glm::dvec2> resample(const std::vector<glm::dvec2>& polygon, std::size_t count);
 
-/// Convolution of a closed sequence of evenly spaced points with a Gaussian.
-/// \param deviation  its standard deviation in samples; 0 changes nothing
-std::vector<glm::dvec2> smooth(const std::vector<glm::dvec2>& points, double deviation);
-
-/// The same for numbers and colours.
-std::vector<double> smooth(const std::vector<double>& values, double deviation);
-std::vector<glm::dvec3> smooth(const std::vector<glm::dvec3>& values, double deviation);
+/// The same with a wanted distance between the points, file units; at least 16 points are made.
+std::vector<glm::dvec2> resample_by(const std::vector<glm::dvec2>& polygon, double step);
 
 /// Signed curvature at the points of a closed, evenly spaced curve, 1 / file unit; positive where it turns left (with y
 /// up).  A circle of radius r that runs counter-clockwise gives 1 / r.  Central differences of second order.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "outline/outline.hpp"
+#include "outline/signal.hpp"
 
 namespace rejoin::outline {
 namespace {
@@ -66,15 +66,11 @@ std::vector<double> slopes(const std::vector<glm::dvec2>& points, int window) {
 
 Turns turns_of(const std::vector<glm::dvec2>& border, const TurnOptions& options) {
   Turns turns;
-  const std::vector<double> own = arc_lengths(border);
+  const double own = perimeter(border);
   const auto fine = std::max<std::size_t>(static_cast<std::size_t>(2 * options.window),
-                                          static_cast<std::size_t>(std::lround(own.back() / options.step)));
+                                          static_cast<std::size_t>(std::lround(own / options.step)));
   // Sampled twice: evenly along the border as given, and again when its stairs are off.
-  std::vector<glm::dvec2> raw;
-  raw.reserve(fine);
-  for (std::size_t i = 0; i < fine; ++i)
-    raw.push_back(point_at(border, own, own.back() * static_cast<double>(i) / static_cast<double>(fine)));
-  const std::vector<glm::dvec2> smooth = without_stairs(raw);
+  const std::vector<glm::dvec2> smooth = without_stairs(resample(border, fine));
   const std::vector<double> lengths = arc_lengths(smooth);
   const auto count =
       std::max<std::size_t>(static_cast<std::size_t>(2 * options.window),
@@ -82,14 +78,9 @@ Turns turns_of(const std::vector<glm::dvec2>& border, const TurnOptions& options
   turns.step = lengths.back() / static_cast<double>(count);
   turns.points.reserve(count);
   turns.places.reserve(count);
-  std::size_t edge = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double at = turns.step * static_cast<double>(i);
-    while (edge + 1 < smooth.size() && lengths[edge + 1] <= at) ++edge;
-    const double width = lengths[edge + 1] - lengths[edge];
-    const double share = width > 0.0 ? (at - lengths[edge]) / width : 0.0;
-    turns.points.push_back(glm::mix(smooth[edge], smooth[(edge + 1) % smooth.size()], share));
-    turns.places.push_back(own.back() * (static_cast<double>(edge) + share) / static_cast<double>(fine));
+  for (const EdgePlace& place : even_places(lengths, count)) {
+    turns.points.push_back(point_at(smooth, place));
+    turns.places.push_back(own * (static_cast<double>(place.edge) + place.share) / static_cast<double>(fine));
   }
   const std::vector<double> direction = slopes(turns.points, options.window);
   turns.change_deg.reserve(count);

@@ -20,31 +20,6 @@ glm::dvec3 crossing(const mesh::Mesh& mesh, std::span<const float> values, const
                   low / (low - high));
 }
 
-template <typename Value>
-std::vector<Value> convolved(const std::vector<Value>& values, double deviation) {
-  const auto count = static_cast<std::int64_t>(values.size());
-  const std::int64_t reach = std::min<std::int64_t>(std::llround(std::ceil(3.0 * deviation)), count / 2);
-  if (deviation <= 0.0 || reach == 0) return values;
-  std::vector<double> weights;
-  double sum = 0.0;
-  for (std::int64_t k = -reach; k <= reach; ++k) {
-    const double x = static_cast<double>(k) / deviation;
-    weights.push_back(std::exp(-0.5 * x * x));
-    sum += weights.back();
-  }
-  std::vector<Value> result;
-  result.reserve(values.size());
-  for (std::int64_t i = 0; i < count; ++i) {
-    Value mean{};
-    for (std::int64_t k = -reach; k <= reach; ++k) {
-      const auto at = static_cast<std::size_t>((i + k + count) % count);
-      mean += weights[static_cast<std::size_t>(k + reach)] / sum * values[at];
-    }
-    result.push_back(mean);
-  }
-  return result;
-}
-
 }  // namespace
 
 double length_of(const ClosedCurve& curve) {
@@ -70,14 +45,6 @@ ClosedCurve resampled(const ClosedCurve& curve, std::size_t count) {
   }
   while (result.size() < count) result.push_back(curve.front());
   return result;
-}
-
-ClosedCurve smoothed(const ClosedCurve& curve, double deviation) {
-  return convolved(curve, deviation);
-}
-
-std::vector<double> smoothed(const std::vector<double>& values, double deviation) {
-  return convolved(values, deviation);
 }
 
 std::vector<ClosedCurve> zero_curves(const mesh::Mesh& mesh, std::span<const float> values) {

@@ -20,10 +20,6 @@ double length_of(const ClosedCurve& curve);
 /// \pre count >= 3, the curve has a length
 ClosedCurve resampled(const ClosedCurve& curve, std::size_t count);
 
-/// Convolution with a Gaussian of `deviation` samples, around the end; 0 changes nothing.
-ClosedCurve smoothed(const ClosedCurve& curve, double deviation);
-std::vector<double> smoothed(const std::vector<double>& values, double deviation);
-
 /// The curves on a mesh along which a function of its vertices (linear between them) is 0.  They run so that positive
 /// values lie on their left, seen from outside.  Curves that end at a hole of the mesh are left out.
 /// \param values  one a vertex

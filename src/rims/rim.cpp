@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/parallel.hpp"
+#include "core/smooth.hpp"
 #include "mesh/point_index.hpp"
 #include "rims/closed_curve.hpp"
 
@@ -90,7 +91,7 @@ std::vector<glm::dvec3> wall_normals(const ClosedCurve& curve, const std::vector
     const glm::dvec3 second = wall_normal(curve[i] + 2.0 * inwards, at_edge, wall, index, near);
     normals.push_back(unit(2.0 * first - second));
   }
-  normals = smoothed(normals, smoothing);
+  normals = smooth(normals, smoothing);
   for (std::size_t i = 0; i < normals.size(); ++i)
     normals[i] = unit(normals[i] - glm::dot(normals[i], along[i]) * along[i]);
   return normals;
@@ -168,7 +169,7 @@ std::vector<Rim> find_rims(const match::Fragment& fragment, double step, double 
   for (const auto& [length, curve] : curves) {
     const auto count = static_cast<std::size_t>(std::llround(length / step));
     if (length < kShortest * curves.front().first || count < kLeastPoints) break;
-    rims.push_back(described(smoothed(resampled(curve, count), smoothing), wall, index, inside, smoothing));
+    rims.push_back(described(smooth(resampled(curve, count), smoothing), wall, index, inside, smoothing));
   }
   measure_thickness(rims, fragment.facets.wall_thickness);
   return rims;

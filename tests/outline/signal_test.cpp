@@ -4,6 +4,7 @@
 
 #include <numeric>
 
+#include "core/smooth.hpp"
 #include "shapes.hpp"
 
 namespace rejoin::outline {

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "core/smooth.hpp"
+
 namespace rejoin::rims {
 namespace {
 
@@ -69,8 +71,8 @@ TEST(ClosedCurve, SmoothingShrinksACircleAsTheGaussianSays) {
   }
   constexpr double kDeviation = 6.0;
   const double angle = 2.0 * M_PI * kDeviation / kCount;
-  // The Gaussian is cut at three deviations, which takes 0.3 % of its weight.
-  for (const glm::dvec3& p : smoothed(circle, kDeviation))
+  // The Gaussian is cut at 3.5 deviations, which takes 0.05 % of its weight.
+  for (const glm::dvec3& p : smooth(circle, kDeviation))
     EXPECT_NEAR(glm::length(p), std::exp(-0.5 * angle * angle), 5e-4);
 }
 

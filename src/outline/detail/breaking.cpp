@@ -2,32 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "outline/outline.hpp"
+#include "outline/polygon.hpp"
 
 namespace rejoin::outline::detail {
 namespace {
 
 constexpr int kTries = 400;
 constexpr int kMostSteps = 5000;
-
-double cross(const glm::dvec2& a, const glm::dvec2& b) {
-  return a.x * b.y - a.y * b.x;
-}
-
-/// Shares of ab and cd at which they cross.
-std::optional<glm::dvec2> crossing(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c,
-                                   const glm::dvec2& d) {
-  const glm::dvec2 u = b - a;
-  const glm::dvec2 v = d - c;
-  const double det = cross(u, v);
-  if (det == 0.0) return std::nullopt;
-  const glm::dvec2 shares(cross(c - a, v) / det, cross(c - a, u) / det);
-  if (shares.x < 0.0 || shares.x > 1.0 || shares.y < 0.0 || shares.y > 1.0) return std::nullopt;
-  return shares;
-}
 
 bool boxes_apart(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, const glm::dvec2& d) {
   const glm::dvec2 low = glm::min(a, b);
@@ -41,20 +25,10 @@ bool crosses_itself(const std::vector<glm::dvec2>& path) {
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
     for (std::size_t j = i + 2; j + 1 < path.size(); ++j) {
       if (boxes_apart(path[i], path[i + 1], path[j], path[j + 1])) continue;
-      if (crossing(path[i], path[i + 1], path[j], path[j + 1])) return true;
+      if (meeting(path[i], path[i + 1], path[j], path[j + 1])) return true;
     }
   }
   return false;
-}
-
-bool inside(const LinedPolygon& polygon, const glm::dvec2& p) {
-  bool odd = false;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const glm::dvec2& a = polygon[i].point;
-    const glm::dvec2& b = polygon[(i + 1) % polygon.size()].point;
-    if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) odd = !odd;
-  }
-  return odd;
 }
 
 /// Makes the point at `share` of an edge a corner; returns its index.
@@ -90,16 +64,17 @@ LinedPolygon Breaker::whole(const std::vector<glm::dvec2>& points) {
 }
 
 glm::dvec2 Breaker::start(const LinedPolygon& polygon) {
-  glm::dvec2 low = polygon[0].point;
+  const std::vector<glm::dvec2> points = points_of(polygon);
+  glm::dvec2 low = points[0];
   glm::dvec2 high = low;
-  for (const Corner& corner : polygon) {
-    low = glm::min(low, corner.point);
-    high = glm::max(high, corner.point);
+  for (const glm::dvec2& point : points) {
+    low = glm::min(low, point);
+    high = glm::max(high, point);
   }
-  glm::dvec2 p = polygon[0].point;
+  glm::dvec2 p = points[0];
   for (int attempt = 0; attempt < kTries; ++attempt) {
     p = {random_.uniform(low.x, high.x), random_.uniform(low.y, high.y)};
-    if (inside(polygon, p)) break;
+    if (contains(points, p)) break;
   }
   return p;
 }
@@ -132,7 +107,7 @@ std::optional<Breaker::Exit> Breaker::walk(const LinedPolygon& polygon, const gl
         const glm::dvec2& c = polygon[i].point;
         const glm::dvec2& d = polygon[(i + 1) % polygon.size()].point;
         if (boxes_apart(path[k], path[k + 1], c, d)) continue;
-        const std::optional<glm::dvec2> shares = crossing(path[k], path[k + 1], c, d);
+        const std::optional<glm::dvec2> shares = meeting(path[k], path[k + 1], c, d);
         if (!shares || shares->x >= least) continue;
         least = shares->x;
         exit = {i, shares->y};

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/median.hpp"
+
 namespace rejoin::outline::detail {
 namespace {
 
@@ -68,29 +70,6 @@ Guide guide_of(const Border& a, const Border& b, const std::vector<PairedPlaces>
   return guide;
 }
 
-/// Least squares motion that takes `from` to `to`.
-Planar superpose(const std::vector<glm::dvec2>& from, const std::vector<glm::dvec2>& to) {
-  glm::dvec2 from_mean(0.0);
-  glm::dvec2 to_mean(0.0);
-  for (std::size_t k = 0; k < from.size(); ++k) {
-    from_mean += from[k];
-    to_mean += to[k];
-  }
-  from_mean /= static_cast<double>(from.size());
-  to_mean /= static_cast<double>(to.size());
-  double cosine = 0.0;
-  double sine = 0.0;
-  for (std::size_t k = 0; k < from.size(); ++k) {
-    const glm::dvec2 f = from[k] - from_mean;
-    const glm::dvec2 t = to[k] - to_mean;
-    cosine += glm::dot(f, t);
-    sine += f.x * t.y - f.y * t.x;
-  }
-  Planar pose{std::atan2(sine, cosine), {}, false};
-  pose.translation = to_mean - pose.direction(from_mean);
-  return pose;
-}
-
 class Fitter {
  public:
   Fitter(const Border& a, const Border& b, Guide guide, double tolerance)
@@ -121,7 +100,7 @@ class Fitter {
       from.push_back(point_of(*b_.signal, guide_.at(i)));
       to.push_back(sample_point(*a_.signal, i));
     }
-    if (!from.empty()) fit_.pose = superpose(from, to);
+    if (!from.empty()) fit_.pose = superposed(from, to);
   }
 
   /// Closest point on B near sample `expected` to a point in B's coordinates.
@@ -193,9 +172,7 @@ class Fitter {
       if (c.close && c.i >= core_begin_ && c.i <= core_end_) distances.push_back(c.distance);
     }
     if (distances.empty()) return;
-    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-    std::nth_element(distances.begin(), middle, distances.end());
-    fit_.gap = *middle;
+    fit_.gap = median(distances);
     for (Contact& c : fit_.contacts) c.close = c.close && std::abs(c.distance - fit_.gap) <= tolerance_;
   }
 
@@ -247,7 +224,7 @@ class Fitter {
     };
     const auto row_of = [&](const glm::dvec2& place, const glm::dvec2& direction, double gap) {
       const glm::dvec2 arm = place - centre;
-      return glm::dvec4(arm.x * direction.y - arm.y * direction.x, direction, gap);
+      return glm::dvec4(cross(arm, direction), direction, gap);
     };
     double weights = 0.0;
     for (const Contact& c : fit_.contacts) {

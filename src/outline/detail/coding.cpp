@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/median.hpp"
+#include "core/smooth.hpp"
+
 namespace rejoin::outline::detail {
 namespace {
 
@@ -20,9 +23,7 @@ double usual_turning(const std::vector<std::vector<ScaleSignal>>& pieces, std::s
   for (const auto& piece : pieces) {
     for (const float t : piece[k].turning) sizes.push_back(std::abs(t));
   }
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return std::max(kFromMedian * static_cast<double>(*middle), 1e-12);
+  return std::max(kFromMedian * static_cast<double>(median(sizes)), 1e-12);
 }
 
 Coded encode(const ScaleSignal& signal, double usual) {

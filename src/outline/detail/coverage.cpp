@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
+#include "core/median.hpp"
 
 namespace rejoin::outline::detail {
 namespace {
@@ -33,12 +34,6 @@ std::array<std::vector<float>, 3> frame_colours(const cv::Mat& image) {
     add(y, image.cols - 1);
   }
   return channels;
-}
-
-float median(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 struct Classes {

@@ -1,0 +1,19 @@
+/// The middle of a set of numbers.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace rejoin {
+
+/// The median, the upper one of an even count, 0 of none; brings the values into another order.
+template <typename Value>
+Value median(std::vector<Value>& values) {
+  if (values.empty()) return Value{};
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace rejoin
