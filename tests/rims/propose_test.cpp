@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/parallel.hpp"
 #include "mesh/load.hpp"
 #include "rims/rim.hpp"
 
@@ -70,6 +71,25 @@ TEST_F(Bowl, TheTrueJoinIsAmongTheFirstFiveProposals) {
            glm::distance(proposal.pose(centre), truth(centre)) < 0.02 * a_->diameter;
   };
   EXPECT_TRUE(std::any_of(proposals.begin(), proposals.begin() + 5, right));
+}
+
+TEST_F(Bowl, OneThreadAndTwoProposeTheSame) {
+  std::vector<std::vector<Proposal>> found;
+  for (const int threads : {1, 2}) {
+    const ThreadLimit limit(threads);
+    found.push_back(propose(*a_, *b_, {}, {}));
+  }
+  ASSERT_FALSE(found[0].empty());
+  ASSERT_EQ(found[0].size(), found[1].size());
+  for (std::size_t i = 0; i < found[0].size(); ++i) {
+    const Proposal& one = found[0][i];
+    const Proposal& two = found[1][i];
+    EXPECT_EQ(one.pose.rotation, two.pose.rotation);
+    EXPECT_EQ(one.pose.translation, two.pose.translation);
+    EXPECT_EQ(one.evidence, two.evidence);
+    EXPECT_EQ(one.length, two.length);
+    EXPECT_EQ(one.strength, two.strength);
+  }
 }
 
 }  // namespace
