@@ -30,12 +30,13 @@ std::string summary(const outline::PairResult& result) {
              best.boundary.length, best.gap_area, best.overlap_area);
 }
 
-/// One pair can afford to look for boundaries down to a fortieth of the border.
+/// One pair can afford to look for boundaries down to a fortieth of the border, and to fit whatever might be one: the shape of
+/// the samples alone tells little of so short a stretch, so that the true one is often far down.
 outline::MultiscaleOptions thorough() {
   outline::MultiscaleOptions options;
   options.min_length_share = 1.0 / 40.0;
-  options.per_pair = 16;
-  options.fitted = 60;
+  options.per_pair = 256;
+  options.fitted = 256;
   return options;
 }
 

@@ -26,6 +26,9 @@ constexpr double kTurningLimit = 4.0;
 constexpr double kOverlapScale = 0.03;
 /// The same as a mean depth along the boundary, tolerances.
 constexpr double kOverlapDepth = 0.5;
+/// The residual that costs a factor e of evidence, tolerances.  A true join's two sides keep their distance (worn edges too);
+/// where the borders only happen to run the same way, it varies by as much as the tolerance lets through.
+constexpr double kResidual = 0.3;
 /// The automatic step leaves at most this many samples on the mean border.
 constexpr double kMostSamples = 3000.0;
 constexpr double kStepInEdges = 1.4;
@@ -140,8 +143,10 @@ std::optional<FittedJoin> JoinFitter::fit(std::size_t a, std::size_t b,
   const double deep = s.overlap_area(a, b, join.pose, s.tolerance);
   fitted.overlap_share = deep / std::min(s.areas[a], s.areas[b]);
   const double along_boundary = deep / (s.tolerance * join.boundary.length);
-  fitted.evidence = detail::agreement(border_a, border_b, contact->contacts) *
-                    std::exp(-fitted.overlap_share / kOverlapScale - along_boundary / kOverlapDepth);
+  const double residual = fitted.residual / (kResidual * s.tolerance);
+  fitted.evidence =
+      detail::agreement(border_a, border_b, contact->contacts) *
+      std::exp(-residual * residual - fitted.overlap_share / kOverlapScale - along_boundary / kOverlapDepth);
   join.score = score_of(fitted.evidence);
   return fitted;
 }

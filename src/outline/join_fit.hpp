@@ -44,7 +44,8 @@ class JoinFitter {
   /// gap apart (worn edges); the boundary grows as far as the borders stay together.
   /// The score weighs how well the two borders' turning agrees along the boundary, scale by scale: -n/2 log(1 - r^2) for
   /// a correlation r of n samples.  So straight on straight says nothing, and what wear has taken from the fine scales is
-  /// not missed at the coarse ones.  Overlap beyond the boundary's tolerance speaks against.
+  /// not missed at the coarse ones.  Overlap beyond the boundary's tolerance speaks against, and so does a distance between the
+  /// two borders that varies along the boundary.
   /// \param pairs  at least 2; on_a rises, on_b falls (B upside down: rises), both without jumps at the borders' ends
   /// \return nullopt: the borders do not meet there
   std::optional<FittedJoin> fit(std::size_t a, std::size_t b, const std::vector<PairedPlaces>& pairs) const;

@@ -20,6 +20,7 @@ struct Sums {
   double aa = 0.0;
   double bb = 0.0;
   double ab = 0.0;
+  double fourth = 0.0;  ///< of the squares' means
 
   void add(double x, double y) {
     count += 1.0;
@@ -28,6 +29,15 @@ struct Sums {
     aa += x * x;
     bb += y * y;
     ab += x * y;
+    const double square = 0.5 * (x * x + y * y);
+    fourth += square * square;
+  }
+
+  /// How many of the pairs carry the squares: all where these spread as a normal distribution's do, about three where one
+  /// corner has them all.
+  double carrying() const {
+    const double squares = 0.5 * (aa + bb);
+    return fourth > 0.0 ? std::min(count, 3.0 * squares * squares / fourth) : count;
   }
 
   double correlation() const {
@@ -71,7 +81,7 @@ double agreement_at(const ScaledBorder& a, const ScaledBorder& b, const std::vec
   }
   if (sums.count < kLeastSamples) return 0.0;
   const double r = std::clamp(sums.correlation(), 0.0, 0.999);
-  return -0.5 * kIndependent * sums.count * std::log(1.0 - r * r);
+  return -0.5 * kIndependent * sums.carrying() * std::log(1.0 - r * r);
 }
 
 }  // namespace

@@ -1,0 +1,69 @@
+#include "outline/join_fit.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/random.hpp"
+#include "outline/detail/evidence.hpp"
+#include "shapes.hpp"
+
+namespace rejoin::outline {
+namespace {
+
+constexpr double kLength = 300.0;
+constexpr double kHeight = 100.0;
+
+/// Evidence of a tile's two parts at the break, the upper part's side of it waved by `height`.
+double evidence_with_wave(double height) {
+  testing::BrokenTile tile = testing::broken_tile(kLength, kHeight, {}, 3);
+  for (glm::dvec2& p : tile.upper.points) {
+    if (p.y < 0.5 * kHeight) p.y += height * std::sin(4.0 * M_PI * p.x / kLength);
+  }
+  const std::vector<Piece> pieces{{"lower", "", tile.lower}, {"upper", "", tile.upper}};
+  const JoinFitter fitter(pieces, {});
+  // The lower part's border reaches the break's right end after its lower and right sides; there the upper one's begins.
+  const std::vector<double> lengths = arc_lengths(tile.lower.points);
+  const auto corner = static_cast<std::size_t>(kLength + kHeight);
+  const double line = lengths[corner + static_cast<std::size_t>(kLength)] - lengths[corner];
+  const std::vector<PairedPlaces> pairs{{lengths[corner], line}, {lengths[corner] + line, 0.0}};
+  const auto fitted = fitter.fit(0, 1, pairs);
+  return fitted ? fitted->evidence : 0.0;
+}
+
+// A wave of 4 within the tolerance of 8, 150 long: how the borders turn tells it less than how far apart they are.
+TEST(JoinFit, ADistanceThatVariesAlongTheBoundarySpeaksAgainstIt) {
+  const double exact = evidence_with_wave(0.0);
+  EXPECT_GT(exact, 30.0);
+  EXPECT_LT(evidence_with_wave(4.0), 0.17 * exact);  // 0.25 if only the turning counted
+}
+
+/// Evidence of a border of these turns along itself.
+double agreement_of(const std::vector<float>& turning) {
+  const std::size_t count = turning.size();
+  ScaleSignal a{1.0, std::vector<glm::dvec2>(count), turning, {}};
+  for (std::size_t i = 0; i < count; ++i) a.places.push_back(static_cast<double>(i));
+  ScaleSignal b = a;
+  for (std::size_t i = 0; i < count; ++i) b.turning[count - 1 - i] = -turning[i];
+  const std::vector<ScaleSignal> scales_a{a};
+  const std::vector<ScaleSignal> scales_b{b};
+  const std::vector<double> limits{10.0};
+  const auto perimeter = static_cast<double>(count);
+  std::vector<detail::Contact> contacts;
+  for (std::size_t i = 0; i < count; ++i)
+    contacts.push_back({static_cast<std::int32_t>(i), static_cast<double>(count - 1 - i), 0.0, true});
+  return detail::agreement({&scales_a, &limits, {&scales_a[0], perimeter}},
+                           {&scales_b, &limits, {&scales_b[0], perimeter}}, contacts);
+}
+
+TEST(Evidence, OneBendTellsLittleHoweverLongTheStraightLinesBesideIt) {
+  std::vector<float> bend(200, 0.0F);
+  bend[100] = 1.0F;
+  std::vector<float> rough;
+  Random random(5);
+  for (int i = 0; i < 200; ++i) rough.push_back(static_cast<float>(random.normal()));
+  // One sample of 200 carries the bend, and about all carry a rough border.
+  EXPECT_LT(agreement_of(bend), 0.05 * agreement_of(rough));
+  EXPECT_GT(agreement_of(rough), 100.0);
+}
+
+}  // namespace
+}  // namespace rejoin::outline
