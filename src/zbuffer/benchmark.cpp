@@ -43,16 +43,6 @@ glm::mat3 random_rotation(Random& random) {
   return glm::mat3(axis_rotation(glm::normalize(axis), 2.0 * std::atan2(glm::length(axis), real)));
 }
 
-std::vector<ViewPair> random_poses(std::size_t count, std::uint64_t seed) {
-  Random random(seed);
-  std::vector<ViewPair> poses(count);
-  for (ViewPair& pose : poses) {
-    pose.rotation_a = random_rotation(random);
-    pose.rotation_b = random_rotation(random);
-  }
-  return poses;
-}
-
 bool is_gl(Backend backend) {
   return backend == Backend::Gpu || backend == Backend::OsMesa;
 }
@@ -184,6 +174,16 @@ mesh::Mesh cube(int k) {
 }
 
 }  // namespace
+
+std::vector<ViewPair> random_poses(std::size_t count, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<ViewPair> poses(count);
+  for (ViewPair& pose : poses) {
+    pose.rotation_a = random_rotation(random);
+    pose.rotation_b = random_rotation(random);
+  }
+  return poses;
+}
 
 mesh::Mesh bumpy_sphere(std::size_t faces, std::uint64_t seed) {
   const double quads = std::max(1.0, static_cast<double>(faces) / 12.0);

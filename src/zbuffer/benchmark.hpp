@@ -49,6 +49,9 @@ struct BenchmarkRatio {
 /// `faces`.
 mesh::Mesh bumpy_sphere(std::size_t faces, std::uint64_t seed);
 
+/// Poses with both fragments turned at random, evenly over all rotations.
+std::vector<ViewPair> random_poses(std::size_t count, std::uint64_t seed);
+
 /// One row for each backend, number of faces, resolution, number of threads and batch.  GL backends do not use
 /// our threads, but draw in two ways: a row for each.  A backend that fails gets no row.  Ends early, with the
 /// rows so far, when the context is cancelled.

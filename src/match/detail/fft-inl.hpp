@@ -185,23 +185,27 @@ HWY_INLINE void run_any_stage(const FftPlan& plan, const FftStage& stage, const 
   }
 }
 
+// Not inlined, as each is long and every transform ends in them.
 HWY_NOINLINE void run_inner_stage(const FftPlan& plan, const FftStage& stage, Buffer in, Buffer out) {
   run_any_stage(plan, stage, in, out);
+}
+HWY_NOINLINE void run_last_stage(const FftPlan& plan, Buffer in, Rows out) {
+  run_any_stage(plan, plan.stages.back(), in, out);
 }
 
 /// Transforms kLines lines.
 /// \param in       get(t) gives their t-th numbers, each asked for once
-/// \param out      put(f, value) takes their values at frequency f
+/// \param out      row f takes their values at frequency f
 /// \param scratch  two aligned buffers of plan.length * 2 * kLines floats; `in` may read the second
-template <class In, class Out>
-HWY_INLINE void transform_lines(const FftPlan& plan, const In& in, const Out& out,
+template <class In>
+HWY_INLINE void transform_lines(const FftPlan& plan, const In& in, const Rows& out,
                                 float* const (&scratch)[2]) {
   run_stage<4>(plan, plan.stages.front(), in, Buffer{scratch[0]});
   std::size_t here = 0;
   for (std::size_t s = 1; s + 1 < plan.stages.size(); ++s, here = 1 - here) {
     run_inner_stage(plan, plan.stages[s], Buffer{scratch[here]}, Buffer{scratch[1 - here]});
   }
-  run_any_stage(plan, plan.stages.back(), Buffer{scratch[here]}, out);
+  run_last_stage(plan, Buffer{scratch[here]}, out);
 }
 
 #if HWY_TARGET == HWY_SCALAR

@@ -14,8 +14,12 @@ Context::Context(Backend backend)
 
 void Context::load(const FunctionLoader& loader, bool debug) {
   gl_ = load_functions(subject_, loader);
-  const auto* name = gl_.GetString(GL_RENDERER);
-  renderer_ = name != nullptr ? reinterpret_cast<const char*>(name) : "unknown";
+  const auto text = [&](GLenum what) {
+    const auto* name = gl_.GetString(what);
+    return std::string(name != nullptr ? reinterpret_cast<const char*>(name) : "unknown");
+  };
+  renderer_ = text(GL_RENDERER);
+  version_ = text(GL_VERSION);
   GLint major = 0;
   GLint minor = 0;
   gl_.GetIntegerv(GL_MAJOR_VERSION, &major);

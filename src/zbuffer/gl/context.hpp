@@ -32,6 +32,8 @@ class Context {
   const Functions& gl() const { return gl_; }
   /// GL_RENDERER, "llvmpipe (LLVM 15.0.6, 256 bits)".
   const std::string& renderer() const { return renderer_; }
+  /// GL_VERSION, "4.5 (Core Profile) Mesa 22.3.6".
+  const std::string& version() const { return version_; }
   /// "backend gpu": the subject of this context's messages.
   const std::string& subject() const { return subject_; }
 
@@ -40,7 +42,7 @@ class Context {
 
  protected:
   explicit Context(Backend backend);
-  /// Fills gl() and renderer().  \pre bound  \throws BackendError too old, a function is missing
+  /// Fills gl(), renderer() and version().  \pre bound  \throws BackendError too old, a function is missing
   void load(const FunctionLoader& loader, bool debug);
 
  private:
@@ -49,6 +51,7 @@ class Context {
 
   Functions gl_;
   std::string renderer_;
+  std::string version_;
   std::string subject_;
   mutable std::string misuse_;  ///< what the driver said in debug mode, not yet thrown
 };

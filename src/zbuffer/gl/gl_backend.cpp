@@ -2,12 +2,14 @@
 
 #include "core/error.hpp"
 #include "zbuffer/gl/gl_scorer.hpp"
+#include "zbuffer/gl/path_choice.hpp"
 
 namespace rejoin::zbuffer::gl {
 
 std::unique_ptr<Scorer> make(Backend backend, const mesh::Mesh& a, const mesh::Mesh& b,
                              const ViewOptions& options) {
-  return make_gl_scorer(shared_engine(backend), backend, a, b, options, Path::Auto);
+  const std::shared_ptr<Engine> engine = shared_engine(backend);
+  return make_gl_scorer(engine, backend, a, b, options, preferred_path(engine, backend, options.resolution));
 }
 
 BackendInfo probe(Backend backend) {

@@ -14,9 +14,10 @@ namespace rejoin::zbuffer::gl {
 /// A scorer on the backend's one context, which all scorers of the process share: they may live in several
 /// threads and take turns.
 ///
-/// Poses are scored by a compute rasteriser that covers exactly the CPU rasteriser's pixels; depths differ by
-/// rounding (1e-6 of the view side).  What a driver cannot compute (with software: more than 512 pixels or
-/// 100,000 faces) the fixed pipeline draws, on the driver's own sub-pixel grid (1/256 pixel, mostly).
+/// A compute rasteriser covers exactly the CPU rasteriser's pixels; depths differ by rounding (1e-6 of the view
+/// side).  What a driver cannot compute (with software: more than 512 pixels or 100,000 faces) the fixed
+/// pipeline draws, on the driver's own sub-pixel grid (1/256 pixel, mostly); on hardware also what it draws
+/// faster, by a measurement that the user's cache folder keeps (path_choice.hpp).
 /// \pre backend is Gpu or OsMesa
 /// \throws BackendError  the library or a driver is missing, or too old
 /// \throws InputError    a mesh has no faces, or an option is out of range

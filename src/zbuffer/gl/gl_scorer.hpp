@@ -17,8 +17,8 @@ enum class Path {
   Pipeline,       ///< fixed pipeline, then a compute reduction
 };
 
-/// \param path  never decided by a measurement: the same machine must give the same bytes in every run.
-///              A pose that the driver does not finish on a compute path is drawn by the pipeline.
+/// \param path  never decided by a measurement here (preferred_path() of path_choice.hpp does that).  A pose
+///              that the driver does not finish on a compute path is drawn by the pipeline.
 /// \throws BackendError  also if the maps do not fit for Path::ComputeShared, or the work not for Path::Compute
 /// \throws InputError    a mesh has no faces, or an option is out of range
 std::unique_ptr<Scorer> make_gl_scorer(std::shared_ptr<Engine> engine, Backend backend, const mesh::Mesh& a,
