@@ -14,7 +14,8 @@
 namespace rejoin::batch {
 
 struct Options {
-  match::Options match;
+  match::Options match;   ///< but for promising_only, which `thorough` decides
+  bool thorough = false;  ///< search all pairs in full, also those that soon look hopeless
   Shard shard;
   bool retry = false;  ///< try again what failed in an earlier run
 };

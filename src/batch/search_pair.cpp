@@ -33,7 +33,8 @@ std::string text_of(const nlohmann::json& json) {
 
 Searched searched(const match::Result& result) {
   Searched found;
-  found.pair.stage = store::Stage::Match;
+  found.pair.stage = result.in_full ? store::Stage::Match : store::Stage::Sweep;
+  found.pair.evidence = result.promise;
   found.pair.verdict = name_of(result.verdict);
   found.pair.result = text_of({{"evaluations", result.evaluations},
                                {"backend", zbuffer::name_of(result.backend)},
@@ -78,6 +79,7 @@ std::string parameters_json(const match::Options& options) {
                   {"resolution", options.resolution},
                   {"backend", zbuffer::name_of(options.backend)},
                   {"chains", options.chains},
+                  {"promising_only", options.promising_only},
                   {"max_candidates", options.max_candidates}});
 }
 

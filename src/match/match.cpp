@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "core/stopwatch.hpp"
 #include "match/align.hpp"
@@ -15,6 +16,7 @@ namespace rejoin::match {
 namespace {
 
 constexpr double kDegree = 0.017453292519943295;
+constexpr std::size_t kGlance = 2;  // rounds of alignment after which poses are about as strong as in the end
 constexpr double kFacetSpread_deg =
     25.0;  // how far a facet's mean normal may lie from the direction that a user sees
 
@@ -97,6 +99,28 @@ std::vector<Hypothesis> run_esa(const Fragment& a, const Fragment& b, const Opti
   return hypotheses;
 }
 
+void align(std::vector<Hypothesis>& hypotheses, const Joint& joint, const Fragment& a, const Fragment& b,
+           std::span<const Pass> rounds, const Context& context) {
+  for (const Pass& pass : rounds) {
+    refine(hypotheses, joint, pass, context);
+    hypotheses = distinct(hypotheses, b, std::max(a.diameter, b.diameter), pass.kept);
+    if (context.cancelled()) break;
+  }
+}
+
+/// Ends with the best pose so far, if there is one.
+void give_up(const Fragment& a, const Fragment& b, const std::vector<Hypothesis>& hypotheses,
+             const Context& context, Result& result) {
+  result.in_full = false;
+  result.cancelled = context.cancelled();
+  if (hypotheses.empty()) return;
+  const Hypothesis& best = hypotheses.front();
+  Candidate candidate = unmeasured(a, b, best.pose, best.evidence, best.strength);
+  candidate.facet_a = best.facet_a;
+  candidate.facet_b = best.facet_b;
+  result.candidates.push_back(candidate);
+}
+
 }  // namespace
 
 const char* name_of(Verdict verdict) {
@@ -114,9 +138,6 @@ const char* name_of(Verdict verdict) {
 Result match(const Fragment& a, const Fragment& b, const Options& options, const Context& context) {
   Result result;
   Stopwatch clock(result.stages);
-  Verifier verifier(a, b, options);
-  result.backend = verifier.backend();
-  result.renderer = verifier.renderer();
   const Joint joint(a, b);
   clock.lap("prepare");
 
@@ -127,12 +148,18 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
   clock.lap("search");
 
   context.report("align", 0.5);
-  const double diameter = std::max(a.diameter, b.diameter);
-  for (const Pass& pass : passes(joint.tolerance(), options.max_candidates)) {
-    refine(hypotheses, joint, pass, context);
-    hypotheses = distinct(hypotheses, b, diameter, pass.kept);
-    if (context.cancelled()) break;
+  const auto rounds = passes(joint.tolerance(), options.max_candidates);
+  align(hypotheses, joint, a, b, std::span(rounds).first(kGlance), context);
+  result.promise = hypotheses.empty() ? 0.0 : hypotheses.front().strength;
+  if (options.promising_only && result.promise < kWorthwhile) {
+    clock.lap("align");
+    give_up(a, b, hypotheses, context, result);
+    return result;
   }
+  Verifier verifier(a, b, options);
+  result.backend = verifier.backend();
+  result.renderer = verifier.renderer();
+  if (!context.cancelled()) align(hypotheses, joint, a, b, std::span(rounds).subspan(kGlance), context);
   hypotheses.resize(std::min(hypotheses.size(), static_cast<std::size_t>(options.max_candidates)));
   if (!context.cancelled()) tighten(hypotheses, joint);
   clock.lap("align");

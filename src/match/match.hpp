@@ -42,6 +42,8 @@ struct Options {
   int chains = 8;  ///< independent annealing chains
   std::uint64_t seed = 1;
   int max_candidates = 8;  ///< distinct poses that are returned
+  /// Go no further with a pair whose poses are weak after the first alignments: for many pairs, of which few join.
+  bool promising_only = false;
 };
 
 /// A fragment made ready: surface, level of detail, facets.
@@ -98,6 +100,9 @@ struct Result {
   std::vector<Candidate> candidates;  ///< best first, distinct; empty only if nothing could be tried
   Verdict verdict = Verdict::NoJoin;
   std::optional<Stability> stability;  ///< of the best candidate; nullopt if it was not probed
+  bool in_full =
+      true;  ///< else it was not promising; the best pose is the only candidate, its depth-map errors are not measured
+  double promise = 0;  ///< strength() of the best pose after the first alignments
   long evaluations = 0;
   bool cancelled = false;                          ///< stopped before the end; what was found is here
   std::vector<StageTime> stages;                   ///< prepare (of the pair), search, align, verify

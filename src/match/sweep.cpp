@@ -11,14 +11,13 @@ namespace rejoin::match {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kAcross = 7.0;          // pixels across a strip
-constexpr double kMapSide = 36.0;        // pixels across a plate
-constexpr double kElongated = 3.0;       // length over mean width from which a facet is a strip
-constexpr double kStripTurn = 0.4;       // strips lie along each other within 23 degrees
-constexpr double kFinest = 0.7;          // of the scans' resolution: below it there is nothing to see
-constexpr double kCoarser = 2.0;         // pitch of the first look at plates
-constexpr std::size_t kSecondLook = 64;  // coarse peaks of a pair of fragments that are looked at finely
-constexpr double kSmallFacet = 0.02;     // of the largest facet's area: too small to tell
+constexpr double kAcross = 7.0;       // pixels across a strip, at least
+constexpr double kMapSide = 36.0;     // pixels across a strip drawn as a square, at least
+constexpr double kElongated = 3.0;    // length over mean width from which a facet is a strip
+constexpr double kStripTurn = 0.4;    // strips lie along each other within 23 degrees
+constexpr double kFinest = 0.7;       // of the scans' resolution: below it there is nothing to see
+constexpr double kPlate = 2.0;        // pixels of plates, which have more of them, against those of strips
+constexpr double kSmallFacet = 0.02;  // of the largest facet's area: too small to tell
 
 double mean_width(const FacetPatch& patch) {
   return patch.area / std::max(patch.length, 1e-30);
@@ -27,16 +26,12 @@ bool is_strip(const FacetPatch& patch) {
   return patch.length > kElongated * mean_width(patch);
 }
 
-/// Pixel size of the fine maps.
+/// Pixel size of the maps, mesh units.
 double pitch_for(const FacetPatch& a, const FacetPatch& b, double resolution) {
   const double across = std::min(mean_width(a), mean_width(b)) / kAcross;
   const double side = std::sqrt(std::min(a.area, b.area)) / kMapSide;
-  return std::max(std::min(across, side), kFinest * resolution);
-}
-
-/// Pixel size of the first look at plates.
-double coarse_pitch_for(const FacetPatch& a, const FacetPatch& b, double resolution) {
-  return std::max(kCoarser * pitch_for(a, b, 0.0), kFinest * resolution);
+  const double pitch = std::min(across, side) * (is_strip(a) && is_strip(b) ? 1.0 : kPlate);
+  return std::max(pitch, kFinest * resolution);
 }
 
 std::vector<double> turns_for(const FacetPatch& a, const FacetPatch& b, double step) {
@@ -155,21 +150,6 @@ double turn_step(const FacetPatch& a, const FacetPatch& b, double pitch, double 
   return std::clamp(2.0 * step_px * pitch / std::min(a.length, b.length), 0.02, 0.25);
 }
 
-/// The fine turns around the coarse peaks that are worth a second look.
-std::vector<double> turns_near(const std::vector<SweepHit>& coarse, double reach, double step) {
-  std::vector<double> turns;
-  const int side = static_cast<int>(std::ceil(reach / step));
-  for (const SweepHit& hit : coarse) {
-    for (int k = -side; k <= side; ++k) turns.push_back(hit.turn_rad + k * reach / side);
-  }
-  std::sort(turns.begin(), turns.end());
-  std::vector<double> apart;
-  for (const double turn : turns) {
-    if (apart.empty() || turn - apart.back() > 0.7 * step) apart.push_back(turn);
-  }
-  return apart;
-}
-
 std::vector<int> candidates(const Fragment& fragment, const std::vector<int>& chosen) {
   std::vector<int> list;
   double largest = 0.0;
@@ -202,60 +182,29 @@ SweepResult sweep(const Fragment& a, const Fragment& b, const SweepOptions& opti
   const auto patches_b = patches_of(b, list_b);
   const double resolution = std::max(a.resolution, b.resolution);
   const std::size_t pairs = patches_a.size() * patches_b.size();
-  std::vector<SweepResult> coarse(pairs);
-  std::vector<SweepResult> fine(pairs);
+  std::vector<SweepResult> parts(pairs);
   std::mutex reporting;
   std::size_t done = 0;
-  const auto each_pair = [&](const auto& body) {
-    parallel_for(pairs, 1, [&](std::size_t first, std::size_t last) {
-      for (std::size_t k = first; k < last; ++k) {
-        if (context.cancelled()) return;
-        const std::size_t i = k / patches_b.size();
-        const std::size_t j = k % patches_b.size();
-        if (patches_a[i].points.empty() || patches_b[j].points.empty()) continue;
-        body(k, patches_a[i], patches_b[j], Task{list_a[i], list_b[j]});
-        const std::lock_guard lock(reporting);
-        context.report("search", static_cast<double>(++done) / static_cast<double>(2 * pairs));
-      }
-    });
-  };
-  // Strips are cheap enough to be looked at finely at once; plates first at a coarse pitch.
-  each_pair([&](std::size_t k, const FacetPatch& pa, const FacetPatch& pb, const Task& task) {
-    const double pitch = pitch_for(pa, pb, resolution);
-    if (is_strip(pa) && is_strip(pb)) {
+  parallel_for(pairs, 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) {
+      if (context.cancelled()) return;
+      const std::size_t i = k / patches_b.size();
+      const std::size_t j = k % patches_b.size();
+      const FacetPatch& pa = patches_a[i];
+      const FacetPatch& pb = patches_b[j];
+      if (pa.points.empty() || pb.points.empty()) continue;
+      const double pitch = pitch_for(pa, pb, resolution);
       const double step = turn_step(pa, pb, pitch, options.turn_step_px);
-      fine[k] =
-          correlate_turns(pa, pb, task, pitch, turns_for(pa, pb, step), options.per_pair_of_facets, context);
-      return;
+      parts[k] = correlate_turns(pa, pb, {list_a[i], list_b[j]}, pitch, turns_for(pa, pb, step),
+                                 options.per_pair_of_facets, context);
+      const std::lock_guard lock(reporting);
+      context.report("search", static_cast<double>(++done) / static_cast<double>(pairs));
     }
-    const double first_pitch = coarse_pitch_for(pa, pb, resolution);
-    const double step = turn_step(pa, pb, first_pitch, options.turn_step_px);
-    coarse[k] = correlate_turns(pa, pb, task, first_pitch, turns_for(pa, pb, step),
-                                options.per_pair_of_facets, context);
-  });
-  done = pairs;
-  std::vector<float> scores;
-  for (const auto& part : coarse) {
-    for (const auto& hit : part.hits) scores.push_back(hit.agreement.score);
-  }
-  std::sort(scores.begin(), scores.end(), std::greater<>());
-  const float least = scores.size() > kSecondLook ? scores[kSecondLook] : -1.0F;
-  each_pair([&](std::size_t k, const FacetPatch& pa, const FacetPatch& pb, const Task& task) {
-    std::vector<SweepHit> worth = coarse[k].hits;
-    std::erase_if(worth, [&](const SweepHit& hit) { return hit.agreement.score < least; });
-    if (worth.empty()) return;
-    const double pitch = pitch_for(pa, pb, resolution);
-    const double step = turn_step(pa, pb, pitch, options.turn_step_px);
-    const auto turns = turns_near(
-        worth, turn_step(pa, pb, coarse_pitch_for(pa, pb, resolution), options.turn_step_px), step);
-    fine[k] = correlate_turns(pa, pb, task, pitch, turns, options.per_pair_of_facets, context);
   });
   SweepResult result;
-  for (std::size_t k = 0; k < pairs; ++k) {
-    result.hits.insert(result.hits.end(), fine[k].hits.begin(), fine[k].hits.end());
-    if (context.cancelled())
-      result.hits.insert(result.hits.end(), coarse[k].hits.begin(), coarse[k].hits.end());
-    result.evaluations += coarse[k].evaluations + fine[k].evaluations;
+  for (const SweepResult& part : parts) {
+    result.hits.insert(result.hits.end(), part.hits.begin(), part.hits.end());
+    result.evaluations += part.evaluations;
   }
   result.hits = distinct(std::move(result.hits), 3.0 * resolution, mesh::centroid(b.surface),
                          0.25 * std::min(a.diameter, b.diameter), static_cast<std::size_t>(options.most));

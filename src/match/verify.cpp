@@ -41,16 +41,11 @@ Verdict verdict_of(double score, const std::optional<Stability>& stability) {
   return score >= kPossible ? Verdict::Unsure : Verdict::NoJoin;
 }
 
-Verifier::Verifier(const Fragment& a, const Fragment& b, const Options& options)
-    : a_(a), b_(b), view_(whole_fragment_view(a, b, options.resolution)) {
-  raster_ = zbuffer::make_scorer(options.backend, a.coarse, b.coarse, view_);
-  raycast_ = zbuffer::make_scorer(zbuffer::Backend::RayCast, a.surface, b.surface, view_);
-}
-
-Candidate Verifier::candidate(const Rigid& pose, const Evidence& evidence, double strength) {
+Candidate unmeasured(const Fragment& a, const Fragment& b, const Rigid& pose, const Evidence& evidence,
+                     double strength) {
   Candidate c;
-  const Rigid to_file_a{glm::dmat3(1.0), a_.surface.origin};
-  const Rigid from_file_b{glm::dmat3(1.0), -b_.surface.origin};
+  const Rigid to_file_a{glm::dmat3(1.0), a.surface.origin};
+  const Rigid from_file_b{glm::dmat3(1.0), -b.surface.origin};
   c.pose = to_file_a * pose * from_file_b;
   c.score = score_of(strength);
   c.error.contact_area = evidence.contact_area;
@@ -58,6 +53,17 @@ Candidate Verifier::candidate(const Rigid& pose, const Evidence& evidence, doubl
   if (evidence.contact_area > 0) {
     c.error.penetration = evidence.penetration * evidence.penetration_area / evidence.contact_area;
   }
+  return c;
+}
+
+Verifier::Verifier(const Fragment& a, const Fragment& b, const Options& options)
+    : a_(a), b_(b), view_(whole_fragment_view(a, b, options.resolution)) {
+  raster_ = zbuffer::make_scorer(options.backend, a.coarse, b.coarse, view_);
+  raycast_ = zbuffer::make_scorer(zbuffer::Backend::RayCast, a.surface, b.surface, view_);
+}
+
+Candidate Verifier::candidate(const Rigid& pose, const Evidence& evidence, double strength) {
+  Candidate c = unmeasured(a_, b_, pose, evidence, strength);
   const glm::dvec3 direction = glm::length(evidence.normal) > 0 ? evidence.normal : glm::dvec3(0, 0, 1);
   const ViewCentres centres{a_.surface.origin + glm::dvec3(view_.centre_a),
                             b_.surface.origin + glm::dvec3(view_.centre_b)};

@@ -11,8 +11,11 @@ namespace rejoin::match {
 /// What the evidence is worth: information, less what the joint leaves open or overlaps.  Comparable across pairs.
 double strength(const Evidence& evidence);
 
-constexpr double kSure = 0.97;     ///< score from which the verdict is "join"
+constexpr double kSure = 0.99;     ///< score from which the verdict is "join"
 constexpr double kPossible = 0.3;  ///< and from which it is "unsure"
+
+/// Strength of the best pose after the first alignments from which a pair is promising.  \source docs/scoring.md
+constexpr double kWorthwhile = 1.5;
 
 /// Strength -> log-odds that the pieces join.
 double log_odds(double strength);
@@ -23,6 +26,11 @@ double score_of(double strength);
 /// \param score      of the best candidate
 /// \param stability  of it; a pose that half of the samples would turn, or that was not probed, is no sure join
 Verdict verdict_of(double score, const std::optional<Stability>& stability);
+
+/// A candidate without errors by depth maps, which stay infinite.
+/// \param pose  B -> A, relative to the meshes' origins
+Candidate unmeasured(const Fragment& a, const Fragment& b, const Rigid& pose, const Evidence& evidence,
+                     double strength);
 
 /// Measures candidates of one pair by rasterised and by ray-cast depth maps of the whole fragments.
 class Verifier {

@@ -39,7 +39,7 @@ struct Fragment {
 
 /// How far a pair was taken.
 enum class Stage {
-  Sweep,   ///< the coarse sweep found too little for more
+  Sweep,   ///< the sweep and the first alignments found too little for more
   Match,   ///< searched in full
   Failed,  ///< `error` says why; not tried again while the inputs stay
 };
@@ -53,7 +53,7 @@ struct Pair {
   std::string name_a;
   std::string name_b;
   Stage stage = Stage::Failed;
-  double evidence = 0;  ///< strength of the coarse sweep's best pose; 0 where it was not run
+  double evidence = 0;  ///< strength of the best pose after the first alignments
   double score = 0;     ///< 0 .. 1, comparable across pairs
   std::string verdict;  ///< "join", "unsure" or "no join"; empty if it failed
   double seconds = 0;   ///< spent on it, all stages

@@ -150,7 +150,7 @@ TEST(Assemble, AJoinThatPutsPiecesIntoEachOtherIsRejectedWithTheReason) {
 
 TEST(Assemble, AFalseJoinGivesWayToTheLoopsThatContradictIt) {
   const Corner corner = corner_of(ball());
-  std::vector<Link> links = ball().all_true(0.98);
+  std::vector<Link> links = ball().all_true(0.995);
   const std::size_t others = ball().contacts.size() - 1;
   ASSERT_GE(others, 4U);
   links.push_back(ball().false_link(corner.a, corner.b, 0.9999, 25.0, 0.3));  // surer than any true one
