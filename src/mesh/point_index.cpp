@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nanoflann.hpp>
 
 namespace rejoin::mesh {
@@ -20,7 +21,8 @@ struct Points {
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Points>, Points, 3,
                                                  std::uint32_t>;
 
-/// nanoflann's result of a search for the nearest point that starts with a limit, so that far parts of the tree are never entered.
+/// nanoflann's result of a search for the nearest point that starts with a limit, so that far parts of the tree
+/// are never entered.
 class NearestWithin {
  public:
   explicit NearestWithin(float squared_radius) : squared_(squared_radius) {}
@@ -72,11 +74,7 @@ void PointIndex::within(const glm::vec3& point, float radius, std::vector<std::u
 }
 
 std::optional<std::pair<std::uint32_t, float>> PointIndex::nearest(const glm::vec3& point) const {
-  if (!impl_->tree) return std::nullopt;
-  std::uint32_t index = 0;
-  float squared = 0;
-  impl_->tree->knnSearch(&point.x, 1, &index, &squared);
-  return std::pair(index, std::sqrt(squared));
+  return nearest_within(point, std::numeric_limits<float>::infinity());
 }
 
 std::optional<std::pair<std::uint32_t, float>> PointIndex::nearest_within(const glm::vec3& point,
