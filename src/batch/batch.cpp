@@ -38,13 +38,10 @@ class Work {
         options_(options),
         listener_(listener),
         context_(context),
-        match_(options.match),
         names_(find_scans(inputs)),
         tiles_(tiles_of(names_.size(), options.shard)),
         run_(open(output)),
-        shelf_(output / "fragments") {
-    match_.promising_only = !options.thorough;
-  }
+        shelf_(output / "fragments") {}
 
   Summary run() {
     begin();
@@ -65,7 +62,7 @@ class Work {
   /// Brings the database to the inputs and options of this run.
   void begin() {
     std::vector<store::Fragment> wanted = describe_inputs();
-    const store::Parameters parameters{kVersion, parameters_json(match_), match_.seed};
+    const store::Parameters parameters{kVersion, parameters_json(options_.match), options_.match.seed};
     const Shard& shard = options_.shard;
     const auto forgotten = run_.begin(parameters, wanted,
                                       shard.count > 1 ? fmt::format("{}/{}", shard.number, shard.count) : "");
@@ -143,7 +140,7 @@ class Work {
     std::optional<Searched> found;
     if (prepared_a != nullptr && prepared_b != nullptr) {
       const Context alone({}, context_);
-      found = search_pair(*prepared_a, *prepared_b, match_, alone);
+      found = search_pair(*prepared_a, *prepared_b, options_.match, alone);
     } else if (!context_.cancelled()) {
       found = unusable(prepared_a == nullptr ? a : b);
     }
@@ -196,7 +193,6 @@ class Work {
   const Options& options_;
   Listener& listener_;
   const Context& context_;
-  match::Options match_;
   std::vector<std::string> names_;
   std::vector<Tile> tiles_;
   store::Run run_;

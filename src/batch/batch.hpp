@@ -14,8 +14,9 @@
 namespace rejoin::batch {
 
 struct Options {
-  match::Options match;   ///< but for promising_only, which `thorough` decides
-  bool thorough = false;  ///< search all pairs in full, also those that soon look hopeless
+  Options() { match.promising_only = true; }
+
+  match::Options match;
   Shard shard;
   bool retry = false;  ///< try again what failed in an earlier run
 };

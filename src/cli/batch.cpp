@@ -47,7 +47,7 @@ class BatchCommand final : public Command {
     app.add_flag("--json", json_, "tell the course as JSON lines on stdout")->group("Output");
     app.option_defaults()->group("Search");
     app.add_option("--shard", shard_, "do part I of N, into a folder of its own")->type_name("I/N");
-    app.add_flag("--thorough", options_.thorough, "search all pairs in full, not only promising ones");
+    app.add_flag("--thorough", thorough_, "search all pairs in full, not only promising ones");
     app.add_flag("--retry", options_.retry, "try again what failed before");
     add_number(app, "--resolution", options_.match.resolution, {8, 2048},
                "pixels across a depth map, 8 to 2048 (128)");
@@ -56,6 +56,7 @@ class BatchCommand final : public Command {
   }
 
   ExitCode run(Console& console, Context& context) override {
+    options_.match.promising_only = !thorough_;
     if (!shard_.empty()) options_.shard = parse_shard(shard_);
     const auto listener = json_ ? make_json_listener(console) : make_console_listener(console);
     const auto begin = std::chrono::steady_clock::now();
@@ -95,6 +96,7 @@ class BatchCommand final : public Command {
   std::string out_;
   std::string shard_;
   bool json_ = false;
+  bool thorough_ = false;
   batch::Options options_;
 };
 
