@@ -138,6 +138,9 @@ const char* name_of(Verdict verdict) {
 Result match(const Fragment& a, const Fragment& b, const Options& options, const Context& context) {
   Result result;
   Stopwatch clock(result.stages);
+  Verifier verifier(a, b, options);
+  result.backend = verifier.backend();
+  result.renderer = verifier.renderer();
   const Joint joint(a, b);
   clock.lap("prepare");
 
@@ -156,9 +159,6 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
     give_up(a, b, hypotheses, context, result);
     return result;
   }
-  Verifier verifier(a, b, options);
-  result.backend = verifier.backend();
-  result.renderer = verifier.renderer();
   if (!context.cancelled()) align(hypotheses, joint, a, b, std::span(rounds).subspan(kGlance), context);
   hypotheses.resize(std::min(hypotheses.size(), static_cast<std::size_t>(options.max_candidates)));
   if (!context.cancelled()) tighten(hypotheses, joint);

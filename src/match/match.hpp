@@ -100,8 +100,8 @@ struct Result {
   std::vector<Candidate> candidates;  ///< best first, distinct; empty only if nothing could be tried
   Verdict verdict = Verdict::NoJoin;
   std::optional<Stability> stability;  ///< of the best candidate; nullopt if it was not probed
-  bool in_full =
-      true;  ///< else it was not promising; the best pose is the only candidate, its depth-map errors are not measured
+  /// Else the pair was not promising: the best pose is the only candidate, and its depth-map errors are not measured.
+  bool in_full = true;
   double promise = 0;  ///< strength() of the best pose after the first alignments
   long evaluations = 0;
   bool cancelled = false;                          ///< stopped before the end; what was found is here

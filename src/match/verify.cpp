@@ -59,7 +59,6 @@ Candidate unmeasured(const Fragment& a, const Fragment& b, const Rigid& pose, co
 Verifier::Verifier(const Fragment& a, const Fragment& b, const Options& options)
     : a_(a), b_(b), view_(whole_fragment_view(a, b, options.resolution)) {
   raster_ = zbuffer::make_scorer(options.backend, a.coarse, b.coarse, view_);
-  raycast_ = zbuffer::make_scorer(zbuffer::Backend::RayCast, a.surface, b.surface, view_);
 }
 
 Candidate Verifier::candidate(const Rigid& pose, const Evidence& evidence, double strength) {
@@ -75,6 +74,7 @@ Candidate Verifier::candidate(const Rigid& pose, const Evidence& evidence, doubl
   c.error.slope = c.error.depth * view_.resolution;
   const int covered = std::min(scores[0].covered_a, scores[0].covered_b);
   c.error.overlap = covered > 0 ? static_cast<double>(scores[0].overlap) / covered : 0.0;
+  if (!raycast_) raycast_ = zbuffer::make_scorer(zbuffer::Backend::RayCast, a_.surface, b_.surface, view_);
   raycast_->score(views, scores);
   c.error.raycast = static_cast<double>(scores[0].error) * view_.resolution;
   return c;

@@ -49,7 +49,7 @@ class Verifier {
   const Fragment& b_;
   zbuffer::ViewOptions view_;
   std::unique_ptr<zbuffer::Scorer> raster_;
-  std::unique_ptr<zbuffer::Scorer> raycast_;
+  std::unique_ptr<zbuffer::Scorer> raycast_;  ///< made when first asked: its scenes take time
 };
 
 }  // namespace rejoin::match
