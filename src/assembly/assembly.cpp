@@ -11,6 +11,7 @@
 #include "assembly/grow.hpp"
 #include "assembly/spread.hpp"
 #include "core/parallel.hpp"
+#include "match/verify.hpp"
 
 namespace rejoin::assembly {
 namespace {
@@ -169,8 +170,10 @@ class Assembler {
         const Touch contact = touch(pieces_[a], pieces_[b], relative(a, b));
         const double share = contact.area / smaller_area(a, b);
         if (share < (matched ? kContact : kFound) && !(matched && used.count(link) != 0)) continue;
-        result.joins.push_back(
-            {a, b, matched ? links_[link].score : 0.0, contact.area, contact.gap_median, link >= given_});
+        const double score = matched
+                                 ? links_[link].score
+                                 : match::score_of(contact_strength(pieces_[a], pieces_[b], relative(a, b)));
+        result.joins.push_back({a, b, score, contact.area, contact.gap_median, link >= given_});
       }
     }
   }

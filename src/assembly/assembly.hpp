@@ -41,7 +41,8 @@ struct Options {
 struct Join {
   std::size_t a = 0;
   std::size_t b = 0;
-  double score = 0;  ///< of the candidate that agrees with the assembly, or as judged there; 0: not judged
+  double score =
+      0;  ///< of the candidate that agrees with the assembly, or without any as the contact lies there
   double contact_area = 0;  ///< squared mesh units
   double gap_median = 0;    ///< of |gap| over the contact, mesh units
   bool found = false;       ///< no candidate said so: the two touch where others have put them

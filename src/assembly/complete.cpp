@@ -16,7 +16,6 @@ constexpr std::size_t kPerPair = 2;
 constexpr std::size_t kMost = 1000;    // combinations
 constexpr double kLikely = 0.5;        // of what comes out
 constexpr double kLeastTouch = 0.001;  // share of the smaller piece's surface
-constexpr double kMostOverlap = 0.03;
 
 using Key = std::pair<std::size_t, std::size_t>;
 

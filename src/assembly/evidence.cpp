@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "match/align.hpp"
+#include "match/verify.hpp"
+
 namespace rejoin::assembly {
 namespace {
 
@@ -15,6 +18,13 @@ double log_odds(double score) {
   if (!(score > 0.0)) return -kMost;
   if (score >= 1.0) return kMost;
   return std::clamp(std::log(score / (1.0 - score)), -kMost, kMost);
+}
+
+double contact_strength(const Piece& a, const Piece& b, const Rigid& b_to_a) {
+  const Rigid from_file{glm::dmat3(1.0), -a.fragment().surface.origin};
+  const Rigid to_file{glm::dmat3(1.0), b.fragment().surface.origin};
+  const match::Joint joint(a.fragment(), b.fragment());
+  return match::strength(joint.evidence(from_file * b_to_a * to_file, 0));
 }
 
 bool same_pose(const Piece& a, const Piece& b, const Rigid& first, const Rigid& second,

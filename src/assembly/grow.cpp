@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assembly/witness.hpp"
+#include "core/parallel.hpp"
+
 namespace rejoin::assembly {
 namespace {
 
 constexpr double kLeastOdds = -6.0;  // links below are noise
 constexpr double kWanted = 1000.0;   // certainty that goes before everything
 constexpr double kFirst = 500.0;
-constexpr double kMostOverlap = 0.03;   // share of the smaller piece's surface that may lie inside another
+constexpr double kWorthHearing = -5.0;  // certainty from which others are asked
 constexpr double kTriangle = 1.0;       // what three unsure joins need above the limit for one
 constexpr double kTriangleOdds = -3.0;  // of each
 constexpr std::size_t kProposals = 24;  // per two groups
@@ -42,7 +45,8 @@ bool Grower::must(const std::vector<Key>& pairs, std::size_t link) const {
 
 Growth Grower::grow(const std::set<std::size_t>& first, const Context& context) {
   State state = start(first);
-  while (!context.cancelled() && (try_best(state) || try_triangle(state))) {
+  while (!context.cancelled() &&
+         (try_best(state) || (hear(state, context) && try_best(state)) || try_triangle(state))) {
   }
   tell_contradictions(state);
   sum_up(state.growth);
@@ -90,7 +94,7 @@ Rigid Grower::transform(const State& state, std::size_t link, std::size_t into) 
 }
 
 Grower::Proposal Grower::weigh(const State& state, const Key& key, std::size_t link) const {
-  Proposal proposal{link, odds_[link], links_.size()};
+  Proposal proposal{link, odds_[link], 0.0, false, links_.size()};
   const Rigid second_to_first = transform(state, link, key.first);
   const double sure = log_odds(options_.sure);
   const Key own = key_of(links_[link].a, links_[link].b);
@@ -108,15 +112,15 @@ Grower::Proposal Grower::weigh(const State& state, const Key& key, std::size_t l
     if (!fresh && odds_[other] > odds_[place->second]) place->second = other;
   }
   for (const auto& [pair, other] : agreeing) {
-    proposal.certainty += std::max(0.0, odds_[other] + options_.loop_weight);
+    proposal.agreeing += std::max(0.0, odds_[other] + options_.loop_weight);
   }
   for (const auto& [pair, other] : contrary) {
     if (agreeing.count(pair) != 0 || odds_[other] < sure) continue;
-    proposal.certainty -= odds_[other];
+    proposal.alone -= odds_[other];
     proposal.against = other;
   }
-  if (state.first->count(link) != 0) proposal.certainty += kFirst;
-  if (must(wanted_, link)) proposal.certainty += kWanted;
+  if (state.first->count(link) != 0) proposal.alone += kFirst;
+  if (must(wanted_, link)) proposal.alone += kWanted;
   return proposal;
 }
 
@@ -129,9 +133,61 @@ void Grower::propose(State& state, const Key& key) const {
     if (proposals.size() >= kProposals && !must(wanted_, link) && state.first->count(link) == 0) continue;
     proposals.push_back(weigh(state, key, link));
   }
-  std::stable_sort(proposals.begin(), proposals.end(),
-                   [](const Proposal& x, const Proposal& y) { return x.certainty > y.certainty; });
+  rank(proposals);
   state.proposals[key] = std::move(proposals);
+}
+
+void Grower::rank(std::vector<Proposal>& proposals) {
+  std::stable_sort(proposals.begin(), proposals.end(),
+                   [](const Proposal& x, const Proposal& y) { return x.certainty() > y.certainty(); });
+}
+
+/// Asks the contacts of other pairs about every proposal that is not sure without.  True: one became so.
+bool Grower::hear(State& state, const Context& context) {
+  const double sure = log_odds(options_.sure);
+  std::vector<std::pair<Key, Proposal*>> open;
+  for (auto& [key, list] : state.proposals) {
+    if (state.members[key.first].size() + state.members[key.second].size() < 3) continue;
+    for (Proposal& p : list) {
+      if (!p.heard && p.certainty() >= kWorthHearing) open.emplace_back(key, &p);
+    }
+  }
+  std::vector<double> strengths(open.size());
+  parallel_for(open.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last && !context.cancelled(); ++k)
+      strengths[k] = witness(state, open[k].first, open[k].second->link);
+  });
+  bool any = false;
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    Proposal& p = *open[k].second;
+    witnessed_[question(state, open[k].first, p.link)] = strengths[k];
+    p.heard = true;
+    p.agreeing = std::max(p.agreeing, witness_odds(strengths[k]));
+    any = any || p.certainty() >= sure;
+  }
+  for (auto& [key, list] : state.proposals) rank(list);
+  return any;
+}
+
+Grower::Question Grower::question(const State& state, const Key& key, std::size_t link) const {
+  Question result{link, state.members.at(key.first), state.members.at(key.second)};
+  std::sort(std::get<1>(result).begin(), std::get<1>(result).end());
+  std::sort(std::get<2>(result).begin(), std::get<2>(result).end());
+  return result;
+}
+
+/// Strength of the contacts of other pairs if a link puts two groups together.
+double Grower::witness(const State& state, const Key& key, std::size_t link) const {
+  const auto known = witnessed_.find(question(state, key, link));
+  if (known != witnessed_.end()) return known->second;
+  std::vector<Rigid> poses = state.growth.poses;
+  const Rigid second_to_first = transform(state, link, key.first);
+  const auto& first = state.members.at(key.first);
+  const auto& second = state.members.at(key.second);
+  for (const std::size_t piece : second) poses[piece] = second_to_first * poses[piece];
+  const bool fewer = second.size() <= first.size();
+  return witness_strength(pieces_, links_[link], std::move(poses), fewer ? first : second,
+                          fewer ? second : first, options_);
 }
 
 /// Uses the most certain proposal of all, or finds that it does not fit.  False: none is certain enough.
@@ -139,14 +195,16 @@ bool Grower::try_best(State& state) {
   std::vector<Proposal>* best = nullptr;
   double most = log_odds(options_.sure) - 1e-9;
   for (auto& [key, list] : state.proposals) {
-    if (list.empty() || list.front().certainty <= most) continue;
-    most = list.front().certainty;
+    if (list.empty() || list.front().certainty() <= most) continue;
+    most = list.front().certainty();
     best = &list;
   }
   if (best == nullptr) return false;
-  const std::size_t link = best->front().link;
+  const Proposal used = best->front();
   best->erase(best->begin());
-  if (fits(state, link)) merge(state, link);
+  if (!fits(state, used.link)) return true;
+  merge(state, used.link);
+  if (used.heard) state.growth.vouched += used.agreeing;
   return true;
 }
 
@@ -173,7 +231,7 @@ std::vector<std::size_t> Grower::corners(const State& state, std::size_t g, std:
   const auto found = state.proposals.find(key_of(g, h));
   if (found == state.proposals.end()) return list;
   for (const Proposal& p : found->second) {
-    if (p.certainty >= kTriangleOdds) list.push_back(p.link);
+    if (p.certainty() >= kTriangleOdds) list.push_back(p.link);
   }
   return list;
 }
@@ -316,7 +374,7 @@ std::vector<std::size_t> Grower::unsatisfied(const Growth& growth) const {
 
 void Grower::sum_up(Growth& growth) const {
   const std::set<std::size_t> used(growth.used.begin(), growth.used.end());
-  growth.evidence = 0.0;
+  growth.evidence = growth.vouched;
   for (const auto& [pair, list] : links_of_) {
     if (growth.group[pair.first] != growth.group[pair.second]) continue;
     const std::size_t link = agreeing(growth, pair.first, pair.second);

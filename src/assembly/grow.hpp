@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <set>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,7 @@ struct Growth {
   std::vector<std::size_t> used;   ///< links that made groups one
   std::vector<Rejection>
       rejected;         ///< links above the limit that were not used, in the order they were tried
+  double vouched = 0;   ///< log-odds that contacts without links gave to the links that were used
   double evidence = 0;  ///< log-odds of all links that agree, less those of strong ones that do not
 };
 
@@ -52,9 +54,16 @@ class Grower {
   /// A way to make two groups one.
   struct Proposal {
     std::size_t link;
-    double certainty;
+    double alone;         ///< log-odds of the link itself, less what contradicts it
+    double agreeing;      ///< log-odds that other pairs add
+    bool heard;           ///< whether their contacts were asked, not their links alone
     std::size_t against;  ///< a strong link that contradicts; links.size(): none
+
+    double certainty() const { return alone + agreeing; }
   };
+
+  /// A link, and the members of both groups that it would put together.
+  using Question = std::tuple<std::size_t, std::vector<std::size_t>, std::vector<std::size_t>>;
 
   /// One growth on its way.
   struct State {
@@ -69,6 +78,10 @@ class Grower {
   void pin(State& state) const;
   void propose(State& state, const Key& key) const;
   Proposal weigh(const State& state, const Key& key, std::size_t link) const;
+  static void rank(std::vector<Proposal>& proposals);
+  bool hear(State& state, const Context& context);
+  Question question(const State& state, const Key& key, std::size_t link) const;
+  double witness(const State& state, const Key& key, std::size_t link) const;
   bool try_best(State& state);
   bool try_triangle(State& state);
   void look_for_triangle(const State& state, const std::array<std::size_t, 3>& groups, double& most,
@@ -91,6 +104,7 @@ class Grower {
   std::vector<double> odds_;                          ///< log-odds, one a link
   std::map<Key, std::vector<std::size_t>> links_of_;  ///< by fragments, best first
   std::vector<Key> wanted_, unwanted_;
+  std::map<Question, double> witnessed_;            ///< what contacts said before
   std::map<std::vector<double>, double> overlaps_;  ///< what was computed before, by pair and pose
 };
 

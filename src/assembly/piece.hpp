@@ -78,6 +78,9 @@ struct Touch {
 /// The broken surfaces' contact.
 Touch touch(const Piece& a, const Piece& b, const Rigid& b_to_a);
 
+/// Overlap above which two pieces cannot lie as they do.
+inline constexpr double kMostOverlap = 0.03;
+
 /// Surface of the two that lies clearly inside the other, as a share of the smaller one's surface.
 double overlap(const Piece& a, const Piece& b, const Rigid& b_to_a);
 

@@ -25,7 +25,7 @@ std::string summary(const AssembleInput& input, const assembly::Result& result) 
   for (const assembly::Join& join : result.joins) {
     text +=
         fmt::format("  {} + {}: {}, contact {:.4g}\n", input.names[join.a], input.names[join.b],
-                    join.found ? std::string("found by contact") : fmt::format("score {:.3f}", join.score),
+                    fmt::format("{} {:.3f}", join.found ? "found by contact, score" : "score", join.score),
                     join.contact_area);
   }
   for (std::size_t k = 0; k < input.names.size(); ++k) {

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "../mesh/shapes.hpp"
+#include "assembly/witness.hpp"
 #include "core/parallel.hpp"
 #include "shatter/shatter.hpp"
 
@@ -196,6 +197,47 @@ TEST(Assemble, APoseThatOnePairsSearchMissedFollowsFromTwoOthers) {
   EXPECT_EQ(
       std::count_if(result.joins.begin(), result.joins.end(), [](const Join& join) { return join.found; }),
       1);
+}
+
+TEST(Assemble, AnUnsureJoinIsUsedWhereAThirdPieceFitsThatNobodySearchedFor) {
+  const Corner corner = corner_of(ball());
+  const std::vector<Link> links{ball().true_link(corner.a, corner.b, 0.999),
+                                ball().true_link(corner.a, corner.c, 0.1)};
+  const Result result = run(ball(), links);
+  ASSERT_EQ(result.groups, 1);
+  EXPECT_EQ(result.placements[corner.c].group, 0);
+  EXPECT_LT(ball().worst_turn(result), 0.5);
+  const auto heard = std::find_if(result.joins.begin(), result.joins.end(), [&](const Join& join) {
+    return join.a == std::min(corner.b, corner.c) && join.b == std::max(corner.b, corner.c);
+  });
+  ASSERT_NE(heard, result.joins.end());
+  EXPECT_TRUE(heard->found);
+  EXPECT_GT(heard->score, 0.9) << "the contact says by itself that it is a join";
+}
+
+TEST(Assemble, AnUnsureJoinIsNotUsedWhereTheThirdPieceDoesNotFit) {
+  const Corner corner = corner_of(ball());
+  const std::vector<Link> links{ball().true_link(corner.a, corner.b, 0.999),
+                                ball().false_link(corner.a, corner.c, 0.1, 20.0, 0.05)};
+  const Result result = run(ball(), links);
+  ASSERT_EQ(result.groups, 1);
+  EXPECT_EQ(result.placements[corner.c].group, -1);
+}
+
+TEST(Witness, OtherContactsSpeakForTrueLinksOnly) {
+  const Corner corner = corner_of(ball());
+  std::vector<Piece> pieces;
+  for (const match::Fragment& fragment : ball().fragments) pieces.emplace_back(fragment);
+  const auto heard = [&](const Link& link) {
+    std::vector<Rigid> poses = ball().to_world;
+    poses[link.b] = poses[link.a] * link.pose;
+    return witness_strength(pieces, link, poses, {corner.a, corner.b}, {corner.c}, {});
+  };
+  EXPECT_GT(heard(ball().true_link(corner.a, corner.c, 0.5)), 6.0);
+  EXPECT_EQ(heard(ball().false_link(corner.a, corner.c, 0.5, 20.0, 0.05)), 0.0);
+  EXPECT_EQ(heard(ball().inside_link(corner.a, corner.c, 0.5)), 0.0);
+  EXPECT_EQ(witness_odds(0.0), 0.0);
+  EXPECT_GT(witness_odds(4.0), witness_odds(2.0));
 }
 
 TEST(Assemble, TwoObjectsStayTwo) {
