@@ -1,9 +1,11 @@
-"""Rigid motions as rows of 4 x 4 matrices, boxes of scans, and the truth of a set."""
+"""Rigid motions as rows of 4 x 4 matrices, boxes of scans, the truth of a set, and what a run holds of it."""
 import json
 import math
+import sqlite3
 import struct
 import subprocess
 from pathlib import Path
+from typing import NamedTuple
 
 FOUND = (5.0, 2.0)  # degrees, per cent of the two fragments' joint diameter
 PRECISE = (1.0, 0.5)
@@ -14,6 +16,24 @@ def read_truth(folder):
     truth = json.loads((folder / "truth.json").read_text())
     poses = {name: fragment["to_world"] for name, fragment in truth["fragments"].items()}
     return poses, {tuple(sorted(join[:2])): join[2] for join in truth["joins"]}
+
+
+class Pair(NamedTuple):
+    stage: str
+    verdict: str
+    score: float
+    seconds: float
+    pose: list | None  # the best
+
+
+def read_pairs(run):
+    """(A, B) -> Pair of what `rejoin batch` wrote."""
+    database = sqlite3.connect(run / "run.sqlite")
+    matrix = ", ".join(f"m{row}{column}" for row in range(1, 5) for column in range(1, 5))
+    names = dict(database.execute("SELECT id, name FROM fragment"))
+    poses = {row[:2]: row[2:] for row in database.execute(f"SELECT a, b, {matrix} FROM candidate WHERE rank = 1")}
+    return {(names[a], names[b]): Pair(*rest, [poses[a, b][4 * k : 4 * k + 4] for k in range(4)] if (a, b) in poses else None)
+            for a, b, *rest in database.execute("SELECT a, b, stage, verdict, score, seconds FROM pair")}
 
 
 def product(a, b):
@@ -68,3 +88,10 @@ def offsets(pose, truth, box_a, box_b):
     there = [moved(truth, p) for p in box_b]
     off = sum(math.dist(moved(pose, p), q) for p, q in zip(box_b, there)) / len(box_b)
     return angle(pose, truth), 100 * off / diagonal(box_a + there)
+
+
+def is_found(pose, truth, box_a, box_b):
+    if pose is None:
+        return False
+    turn, displacement = offsets(pose, truth, box_a, box_b)
+    return turn <= FOUND[0] and displacement <= FOUND[1]
