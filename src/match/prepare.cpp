@@ -28,7 +28,7 @@ Fragment prepare(std::string path, mesh::Mesh scan, const Context& context) {
   clock.lap("coarse");
   fragment.diameter = mesh::diameter(fragment.surface);
   fragment.resolution = mesh::resolution(fragment.surface);
-  fragment.facets = mesh::segment(fragment.surface);
+  fragment.facets = mesh::segment(fragment.surface, fragment.diameter);
   clock.lap("facets");
   context.report("prepare " + fragment.path, 1.0);
   return fragment;

@@ -9,6 +9,7 @@
 #include "core/parallel.hpp"
 #include "mesh/detail/facet_table.hpp"
 #include "mesh/detail/grow.hpp"
+#include "mesh/neighbours.hpp"
 #include "mesh/point_index.hpp"
 #include "mesh/thickness.hpp"
 
@@ -29,11 +30,10 @@ constexpr double kMostSamples = 60000.0;
 using Lists = std::vector<std::vector<std::uint32_t>>;
 
 Lists neighbours_within(const Samples& samples, double radius) {
-  const PointIndex index(samples.points);
+  const Neighbours neighbours(samples.points, static_cast<float>(radius));
   Lists lists(samples.size());
   parallel_for(samples.size(), 256, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i)
-      index.within(samples.points[i], static_cast<float>(radius), lists[i]);
+    for (std::size_t i = first; i < last; ++i) neighbours.of(samples.points[i], lists[i]);
   });
   return lists;
 }
@@ -57,14 +57,13 @@ std::vector<glm::vec3> smooth_normals(const std::vector<glm::vec3>& normals, con
 /// Fracture normals averaged across the whole strip, so that growing follows the strip's course and not its
 /// bevels.
 std::vector<glm::vec3> strip_normals(const Segmentation& s) {
-  const PointIndex index(s.samples.points);
-  const auto radius = static_cast<float>(kStripRadius * s.wall_thickness);
+  const Neighbours neighbours(s.samples.points, static_cast<float>(kStripRadius * s.wall_thickness));
   std::vector<glm::vec3> smooth = s.normals;
   parallel_for(smooth.size(), 256, [&](std::size_t first, std::size_t last) {
     std::vector<std::uint32_t> near;
     for (std::size_t i = first; i < last; ++i) {
       if (s.surface[i] != Surface::Fracture) continue;
-      index.within(s.samples.points[i], radius, near);
+      neighbours.of(s.samples.points[i], near);
       glm::vec3 sum(0.0F);
       for (const auto k : near) {
         if (s.surface[k] == Surface::Fracture && glm::dot(s.normals[k], s.normals[i]) > 0.0F)
@@ -89,7 +88,9 @@ float quadric_residual(const Samples& samples, const std::vector<glm::vec3>& nor
     const glm::dvec3 p = glm::dvec3(samples.points[k] - samples.points[i]) * frame / radius;
     Eigen::Matrix<double, 6, 1> row;
     row << 1.0, p.x, p.y, p.x * p.x, p.x * p.y, p.y * p.y;
-    normal += row * row.transpose();
+    for (int c = 0; c < 6; ++c) {
+      for (int r = c; r < 6; ++r) normal(r, c) += row[r] * row[c];  // LDL^T reads nothing above the diagonal
+    }
     right += row * p.z;
     squares += p.z * p.z;
     ++count;
@@ -199,12 +200,16 @@ void set_facets(Segmentation& s, std::vector<std::vector<std::uint32_t>> members
 }  // namespace detail
 
 Segmentation segment(const Mesh& mesh) {
+  return segment(mesh, diameter(mesh));
+}
+
+Segmentation segment(const Mesh& mesh, double size) {
   Segmentation s;
   s.samples = sample_surface(mesh, kSamples);
   Lists near = neighbours_within(s.samples, kSmoothRadius * s.samples.spacing);
   s.normals = smooth_normals(s.samples.normals, near);
   InwardRays rays = cast_inwards(mesh, s.samples, s.normals);
-  s.wall_thickness = wall_thickness(rays, diameter(mesh));
+  s.wall_thickness = wall_thickness(rays, size);
   const bool thin = s.wall_thickness > 0;
   if (thin && s.samples.spacing > s.wall_thickness / kSamplesPerWall) {
     const double finer = s.samples.spacing * kSamplesPerWall / s.wall_thickness;

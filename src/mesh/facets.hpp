@@ -45,6 +45,8 @@ struct Segmentation {
 /// the smoothest are fracture; where roughness does not tell, every facet counts as fracture.  Facets grow
 /// over smoothed normals from the flattest places. \pre the mesh has faces \source papaioannou 2002,
 /// section 6.2 (mean normals of the most irregular compact facets)
+/// \param size  diameter(mesh)
+Segmentation segment(const Mesh& mesh, double size);
 Segmentation segment(const Mesh& mesh);
 
 /// For every face of `mesh` (the segmented one, or another level of detail of it) the facet of the nearest

@@ -1,6 +1,7 @@
 #include "mesh/mesh.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -33,24 +34,38 @@ std::vector<glm::vec3> half_sphere_directions() {
   return directions;
 }
 
-/// Index of the first vertex that lies furthest along `direction`, and of the one furthest back.
-std::pair<std::uint32_t, std::uint32_t> extremes(const std::vector<glm::vec3>& vertices,
-                                                 const glm::vec3& direction) {
-  float low = std::numeric_limits<float>::infinity();
-  float high = -low;
-  std::pair<std::uint32_t, std::uint32_t> result{0, 0};
+constexpr std::size_t kTogether = 16;  // directions that go through the vertices at once, in vectors
+
+/// Of each direction the index of the first vertex that lies furthest back, then of the one furthest along.
+void extremes(const std::vector<glm::vec3>& vertices, const glm::vec3* directions, std::uint32_t* ends) {
+  std::array<float, kTogether> x;
+  std::array<float, kTogether> y;
+  std::array<float, kTogether> z;
+  std::array<float, kTogether> low;
+  std::array<float, kTogether> high;
+  std::array<std::uint32_t, kTogether> lowest{};
+  std::array<std::uint32_t, kTogether> highest{};
+  for (std::size_t k = 0; k < kTogether; ++k) {
+    x[k] = directions[k].x;
+    y[k] = directions[k].y;
+    z[k] = directions[k].z;
+    low[k] = std::numeric_limits<float>::infinity();
+    high[k] = -low[k];
+  }
   for (std::uint32_t i = 0; i < vertices.size(); ++i) {
-    const float along = glm::dot(vertices[i], direction);
-    if (along < low) {
-      low = along;
-      result.first = i;
-    }
-    if (along > high) {
-      high = along;
-      result.second = i;
+    const glm::vec3 v = vertices[i];
+    for (std::size_t k = 0; k < kTogether; ++k) {
+      const float along = v.x * x[k] + v.y * y[k] + v.z * z[k];
+      lowest[k] = along < low[k] ? i : lowest[k];
+      low[k] = along < low[k] ? along : low[k];
+      highest[k] = along > high[k] ? i : highest[k];
+      high[k] = along > high[k] ? along : high[k];
     }
   }
-  return result;
+  for (std::size_t k = 0; k < kTogether; ++k) {
+    ends[2 * k] = lowest[k];
+    ends[2 * k + 1] = highest[k];
+  }
 }
 
 double cloud_spacing(const Mesh& mesh) {
@@ -100,11 +115,9 @@ double diameter(const Mesh& mesh) {
   // The width along a direction 7 degrees off the longest chord is at least cos 7 = 0.993 of it.
   const std::vector<glm::vec3> directions = half_sphere_directions();
   std::vector<std::uint32_t> ends(2 * directions.size());
-  parallel_for(directions.size(), 8, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const auto [low, high] = extremes(mesh.vertices, directions[i]);
-      ends[2 * i] = low;
-      ends[2 * i + 1] = high;
+  parallel_for(directions.size() / kTogether, 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first * kTogether; i < last * kTogether; i += kTogether) {
+      extremes(mesh.vertices, &directions[i], &ends[2 * i]);
     }
   });
   std::sort(ends.begin(), ends.end());

@@ -27,6 +27,11 @@ std::uint64_t cell_of(const glm::vec3& point, const glm::vec3& low, float spacin
   return (static_cast<std::uint64_t>(cell.x) << 42U) | (static_cast<std::uint64_t>(cell.y) << 21U) | cell.z;
 }
 
+/// Of a number >= 0.
+double fraction(double x) {
+  return x - std::floor(x);
+}
+
 /// About `per_area` points a unit of area: every face gets its share (rounded by carrying the remainder on),
 /// placed by a Kronecker sequence with the plastic number (Roberts 2018), which fills a triangle evenly.
 std::vector<Dart> throw_darts(const Mesh& mesh, double per_area, const glm::vec3& low, float spacing) {
@@ -40,8 +45,8 @@ std::vector<Dart> throw_darts(const Mesh& mesh, double per_area, const glm::vec3
     const glm::vec3 c = mesh.vertices[face.z];
     carried += 0.5 * static_cast<double>(glm::length(glm::cross(b - a, c - a))) * per_area;
     while (carried >= 1.0) {
-      double u = std::fmod(0.5 + 0.7548776662466927 * static_cast<double>(index), 1.0);
-      double v = std::fmod(0.5 + 0.5698402909980532 * static_cast<double>(index), 1.0);
+      double u = fraction(0.5 + 0.7548776662466927 * static_cast<double>(index));
+      double v = fraction(0.5 + 0.5698402909980532 * static_cast<double>(index));
       if (u + v > 1.0) {
         u = 1.0 - u;
         v = 1.0 - v;

@@ -1,0 +1,71 @@
+#include "mesh/neighbours.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/random.hpp"
+#include "mesh/point_index.hpp"
+
+namespace rejoin::mesh {
+namespace {
+
+/// In a box of the given size around the origin; a tenth as thick.
+glm::vec3 random_point(Random& random, float size) {
+  const auto number = [&] { return size * static_cast<float>(random.uniform() - 0.5); };
+  const float x = number();
+  const float y = number();
+  return {x, y, 0.1F * number()};
+}
+
+void expect_answers_of_point_index(const std::vector<glm::vec3>& points, float radius, float asked_size) {
+  Random random(3);
+  const PointIndex index(points);
+  const Neighbours neighbours(points, radius);
+  std::vector<std::uint32_t> expected;
+  std::vector<std::uint32_t> found;
+  std::size_t all = 0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    for (const glm::vec3& asked : {points[k], random_point(random, asked_size)}) {
+      index.within(asked, radius, expected);
+      neighbours.of(asked, found);
+      ASSERT_EQ(found, expected) << "point " << k << ", radius " << radius;
+      all += found.size();
+    }
+  }
+  EXPECT_GT(all, 2 * points.size());
+}
+
+TEST(Neighbours, AreThoseOfThePointIndexInAndAroundTheBox) {
+  Random random(8);
+  std::vector<glm::vec3> points(2000);
+  for (glm::vec3& point : points) point = random_point(random, 1.0F) + glm::vec3(100.0F, 0.0F, -40.0F);
+  expect_answers_of_point_index(points, 0.03F, 1.2F);
+  expect_answers_of_point_index(points, 0.4F, 3.0F);
+}
+
+TEST(Neighbours, AreRightWhereFewPointsSpreadFar) {
+  Random random(9);
+  std::vector<glm::vec3> points(500);
+  for (glm::vec3& point : points) point = random_point(random, 1.0F);
+  points.emplace_back(1000.0F, -500.0F, 0.0F);
+  expect_answers_of_point_index(points, 0.1F, 1.0F);
+}
+
+TEST(Neighbours, WithoutPointsThereAreNone) {
+  std::vector<std::uint32_t> found{1, 2};
+  Neighbours({}, 1.0F).of(glm::vec3(0.0F), found);
+  EXPECT_TRUE(found.empty());
+}
+
+TEST(Neighbours, FarAwayThereAreNone) {
+  const std::vector<glm::vec3> points{glm::vec3(0.0F), glm::vec3(1.0F)};
+  const Neighbours neighbours(points, 1.0F);
+  std::vector<std::uint32_t> found;
+  for (const glm::vec3& far :
+       {glm::vec3(1e30F, 0.0F, 0.0F), glm::vec3(0.0F, -1e30F, 0.0F), glm::vec3(0.5F, 0.5F, 3.5F)}) {
+    neighbours.of(far, found);
+    EXPECT_TRUE(found.empty());
+  }
+}
+
+}  // namespace
+}  // namespace rejoin::mesh
