@@ -5,8 +5,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <map>
 #include <string>
 #include <utility>
@@ -75,17 +75,18 @@ class Stages {
   std::vector<Stage> stages_;
 };
 
-double lap(std::chrono::steady_clock::time_point& last) {
-  const auto now = std::chrono::steady_clock::now();
-  const std::chrono::duration<double> seconds = now - last;
+/// Processor seconds of all threads, so that other work on the machine counts little.
+double lap(std::clock_t& last) {
+  const std::clock_t now = std::clock();
+  const double seconds = static_cast<double>(now - last) / CLOCKS_PER_SEC;
   last = now;
-  return seconds.count();
+  return seconds;
 }
 
 void measure_join(const match::Fragment& a, const match::Fragment& b, const PairTruth& truth,
                   Stages& stages) {
   const match::Joint joint(a, b);
-  auto last = std::chrono::steady_clock::now();
+  std::clock_t last = std::clock();
   std::vector<Hypothesis> list;
   for (const match::SweepHit& hit : match::sweep(a, b, {}, Context()).hits) {
     list.push_back({hit.pose, {}, 0.0, hit.facet_a, hit.facet_b});
@@ -137,7 +138,7 @@ struct Known {
 
 match::Result timed(const match::Fragment& a, const match::Fragment& b, const match::Options& options,
                     double& seconds) {
-  auto last = std::chrono::steady_clock::now();
+  std::clock_t last = std::clock();
   match::Result result = match::match(a, b, options, Context());
   seconds += lap(last);
   return result;

@@ -3,10 +3,13 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <mutex>
+#include <optional>
 #include <tuple>
 #include <utility>
 
 #include "core/median.hpp"
+#include "mesh/near_table.hpp"
 #include "mesh/point_index.hpp"
 
 namespace rejoin::match {
@@ -21,13 +24,32 @@ constexpr double kWallNear = 1.2;    // wall thicknesses from the seam in which 
 constexpr double kWallClear = 0.25;  // wall thicknesses next to the seam that are left out: worn edges lie
 constexpr float kWallAlike = 0.7F;   // wall normals across a seam differ by at most 45 degrees
 constexpr double kWallWeight = 0.1;
-constexpr double kWallStep = 0.3;  // wall thicknesses by which walls that go on may be offset
+constexpr double kWallStep = 0.3;       // wall thicknesses by which walls that go on may be offset
+constexpr double kTableCell = 2.0;      // spacings: side of the cells of tables of near points
+constexpr double kTableReach = 20.0;    // tolerances: how far a quick alignment looks
+constexpr double kWallTableCell = 3.0;  // the same for walls, which are smooth
 
 /// Samples of one class of one fragment.
 struct Cloud {
   std::vector<glm::vec3> points;
   std::vector<glm::vec3> normals;
   std::vector<bool> edge;  ///< next to another facet: worn, of no use for the relief
+};
+
+/// Looks for the point of a cloud that is nearest to another.
+class Finder {
+ public:
+  /// \param table  for nearly the nearest point, sooner; nullptr: exactly
+  Finder(const mesh::PointIndex& index, const mesh::NearTable* table) : index_(&index), table_(table) {}
+
+  std::optional<std::pair<std::uint32_t, float>> within(const glm::vec3& point, double radius) const {
+    const auto r = static_cast<float>(radius);
+    return table_ != nullptr ? table_->nearest_within(point, r) : index_->nearest_within(point, r);
+  }
+
+ private:
+  const mesh::PointIndex* index_;
+  const mesh::NearTable* table_;
 };
 
 struct Side {
@@ -130,31 +152,58 @@ std::size_t stride(std::size_t count, int most) {
 }  // namespace
 
 struct Joint::Impl {
+  /// Of A.
+  struct Tables {
+    mesh::NearTable broken;
+    mesh::NearTable walls;
+    mesh::NearTable body;
+  };
+
   Side a;
   Side b;
+  mutable Tables tables;
+  mutable std::once_flag made_tables;
   double thickness = 0;
   double spacing = 0;
   double tolerance = 0;
   double noise = 0;  ///< of the scans, mesh units
   double patch = 0;  ///< side of a patch of surface whose relief is independent of the next one's, mesh units
 
-  struct Match {
-    std::uint32_t of_a;
-    float distance;
-  };
+  /// How deep a body's surface can lie in the other one's, mesh units.
+  double deepest() const { return thickness > 0 ? 0.6 * thickness : 8.0 * spacing; }
+
+  /// Looks for points of A: broken surface, walls, all.
+  Finder broken_finder(bool quick) const {
+    return {*a.broken_index, quick ? &ready_tables().broken : nullptr};
+  }
+  Finder wall_finder(bool quick) const { return {*a.wall_index, quick ? &ready_tables().walls : nullptr}; }
+  Finder body_finder(bool quick) const { return {*a.body_index, quick ? &ready_tables().body : nullptr}; }
+
+  const Tables& ready_tables() const {
+    std::call_once(made_tables, [this] {
+      const auto table = [](const Cloud& cloud, double cell, double reach) {
+        return mesh::NearTable(cloud.points, static_cast<float>(cell), static_cast<float>(reach));
+      };
+      const double near = kWallNear * thickness;
+      tables.broken = table(a.broken, kTableCell * spacing, std::max(kTableReach * tolerance, near));
+      tables.body = table(a.body, kTableCell * spacing, deepest());
+      if (thickness > 0) {
+        tables.walls = table(a.walls, kWallTableCell * spacing, near + 0.5 * kTableReach * tolerance);
+      }
+    });
+    return tables;
+  }
 
   /// B's samples that lie within `reach` of A's box can matter; every nth of them if there are more than
   /// `most`.
   std::vector<std::uint32_t> chosen(const Cloud& cloud, const std::vector<std::uint32_t>& from,
-                                    const mesh::PointIndex& index, const Rigid& pose, double reach,
-                                    int most) const {
+                                    const Finder& finder, const Rigid& pose, double reach, int most) const {
     const glm::mat3 r(pose.rotation);
     const glm::vec3 t(pose.translation);
     std::vector<std::uint32_t> list;
     const std::size_t step = stride(from.size(), 8 * most);
     for (std::size_t i = 0; i < from.size(); i += step) {
-      if (index.nearest_within(apply(r, t, cloud.points[from[i]]), static_cast<float>(reach)))
-        list.push_back(from[i]);
+      if (finder.within(apply(r, t, cloud.points[from[i]]), reach)) list.push_back(from[i]);
     }
     if (most > 0 && list.size() > static_cast<std::size_t>(most)) {
       std::vector<std::uint32_t> fewer;
@@ -167,14 +216,15 @@ struct Joint::Impl {
   }
 
   void add_broken(System& system, const Rigid& pose, const glm::dvec3& pivot,
-                  const std::vector<std::uint32_t>& list, double reach, bool core_only) const {
+                  const std::vector<std::uint32_t>& list, double reach, const AlignOptions& options) const {
     const glm::mat3 r(pose.rotation);
     const glm::vec3 t(pose.translation);
+    const Finder finder = broken_finder(options.quick);
     for (const auto i : list) {
-      if (core_only && b.broken.edge[i]) continue;
+      if (options.core_only && b.broken.edge[i]) continue;
       const glm::vec3 p = apply(r, t, b.broken.points[i]);
-      const auto hit = a.broken_index->nearest_within(p, static_cast<float>(1.5 * reach));
-      if (!hit || (core_only && a.broken.edge[hit->first])) continue;
+      const auto hit = finder.within(p, 1.5 * reach);
+      if (!hit || (options.core_only && a.broken.edge[hit->first])) continue;
       const glm::vec3 n = a.broken.normals[hit->first];
       if (glm::dot(n, r * b.broken.normals[i]) > kFacing) continue;
       const auto offset = static_cast<double>(glm::dot(p - a.broken.points[hit->first], n));
@@ -184,12 +234,13 @@ struct Joint::Impl {
 
   /// Walls continue across the seam: (p - q).(n_p + n_q) vanishes on planes, cylinders and spheres.
   void add_walls(System& system, const Rigid& pose, const glm::dvec3& pivot,
-                 const std::vector<std::uint32_t>& list, double reach) const {
+                 const std::vector<std::uint32_t>& list, double reach, bool quick) const {
     const glm::mat3 r(pose.rotation);
     const glm::vec3 t(pose.translation);
+    const Finder finder = wall_finder(quick);
     for (const auto i : list) {
       const glm::vec3 p = apply(r, t, b.walls.points[i]);
-      const auto hit = a.wall_index->nearest_within(p, static_cast<float>(kWallNear * thickness));
+      const auto hit = finder.within(p, kWallNear * thickness);
       if (!hit) continue;
       const glm::vec3 n_b = r * b.walls.normals[i];
       const glm::vec3 n_a = a.walls.normals[hit->first];
@@ -202,8 +253,8 @@ struct Joint::Impl {
 
   void look_at_contact(const Rigid& pose, const std::vector<std::uint32_t>& from, int most_samples,
                        Evidence& e) const;
-  void look_for_penetration(const Rigid& pose, int most_samples, Evidence& e) const;
-  void look_at_walls(const Rigid& pose, int most_samples, Evidence& e) const;
+  void look_for_penetration(const Rigid& pose, int most_samples, const Finder& finder, Evidence& e) const;
+  void look_at_walls(const Rigid& pose, int most_samples, bool quick, Evidence& e) const;
 };
 
 Joint::Joint(const Fragment& a, const Fragment& b) : impl_(std::make_unique<Impl>()) {
@@ -230,10 +281,10 @@ double Joint::tolerance() const {
 Rigid Joint::align(const Rigid& start, const AlignOptions& options) const {
   const Impl& d = *impl_;
   Rigid pose = start;
-  auto list = d.chosen(d.b.broken, d.b.broken_of(options.facet_b), *d.a.broken_index, pose,
+  auto list = d.chosen(d.b.broken, d.b.broken_of(options.facet_b), d.broken_finder(options.quick), pose,
                        2.0 * options.reach_start, options.most_samples);
   const auto walls = d.thickness > 0
-                         ? d.chosen(d.b.walls, d.b.all_walls, *d.a.wall_index, pose,
+                         ? d.chosen(d.b.walls, d.b.all_walls, d.wall_finder(options.quick), pose,
                                     kWallNear * d.thickness + options.reach_start, options.most_samples)
                          : std::vector<std::uint32_t>{};
   if (options.half >= 0) {
@@ -247,9 +298,9 @@ Rigid Joint::align(const Rigid& start, const AlignOptions& options) const {
     for (const auto i : list) pivot += pose(glm::dvec3(d.b.broken.points[i]));
     pivot /= static_cast<double>(list.size());
     System system;
-    d.add_broken(system, pose, pivot, list, reach, options.core_only);
+    d.add_broken(system, pose, pivot, list, reach, options);
     if (system.weight < 6.0) break;
-    if (d.thickness > 0) d.add_walls(system, pose, pivot, walls, reach);
+    if (d.thickness > 0) d.add_walls(system, pose, pivot, walls, reach, options.quick);
     // A little resistance keeps directions still that nothing holds (sliding on a plane).
     const double arm = 10.0 * d.spacing;
     for (int q = 0; q < 6; ++q) system.matrix(q, q) += 1e-3 * system.weight * (q < 3 ? arm * arm : 1.0);
@@ -307,13 +358,14 @@ std::pair<glm::dvec3, glm::dvec3> middle_and_axis(const std::vector<glm::dvec3>&
 
 }  // namespace
 
-Evidence Joint::evidence(const Rigid& pose, int most_samples, int facet_b) const {
+Evidence Joint::evidence(const Rigid& pose, int most_samples, int facet_b, bool quick) const {
   const Impl& d = *impl_;
   Evidence e;
   e.tolerance = d.tolerance;
   d.look_at_contact(pose, d.b.broken_of(facet_b), most_samples, e);
-  d.look_for_penetration(pose, most_samples > 0 ? std::min(most_samples, kBodySamples) : kBodySamples, e);
-  if (d.thickness > 0) d.look_at_walls(pose, most_samples, e);
+  d.look_for_penetration(pose, most_samples > 0 ? std::min(most_samples, kBodySamples) : kBodySamples,
+                         d.body_finder(quick), e);
+  if (d.thickness > 0) d.look_at_walls(pose, most_samples, quick, e);
   return e;
 }
 
@@ -364,16 +416,16 @@ void Joint::Impl::look_at_contact(const Rigid& pose, const std::vector<std::uint
       std::log((e.relief * e.relief + noise * noise) / (e.gap_spread * e.gap_spread + noise * noise));
 }
 
-void Joint::Impl::look_for_penetration(const Rigid& pose, int most_samples, Evidence& e) const {
+void Joint::Impl::look_for_penetration(const Rigid& pose, int most_samples, const Finder& finder,
+                                       Evidence& e) const {
   const glm::mat3 r(pose.rotation);
   const glm::vec3 t(pose.translation);
-  const double deepest = thickness > 0 ? 0.6 * thickness : 8.0 * spacing;
   const std::size_t step = stride(b.body.points.size(), most_samples);
   double inside = 0.0;
   double depth = 0.0;
   for (std::size_t i = 0; i < b.body.points.size(); i += step) {
     const glm::vec3 p = apply(r, t, b.body.points[i]);
-    const auto hit = a.body_index->nearest_within(p, static_cast<float>(deepest));
+    const auto hit = finder.within(p, deepest());
     if (!hit) continue;
     const glm::vec3 offset = p - a.body.points[hit->first];
     const auto gap = static_cast<double>(glm::dot(offset, a.body.normals[hit->first]));
@@ -385,17 +437,19 @@ void Joint::Impl::look_for_penetration(const Rigid& pose, int most_samples, Evid
   e.penetration = inside > 0 ? depth / inside : 0.0;
 }
 
-void Joint::Impl::look_at_walls(const Rigid& pose, int most_samples, Evidence& e) const {
+void Joint::Impl::look_at_walls(const Rigid& pose, int most_samples, bool quick, Evidence& e) const {
   const glm::mat3 r(pose.rotation);
   const glm::vec3 t(pose.translation);
+  const Finder near_broken = broken_finder(quick);
+  const Finder finder = wall_finder(quick);
   double found = 0.0;
   double all = 0.0;
   const std::size_t step = stride(b.walls.points.size(), most_samples);
   for (std::size_t i = 0; i < b.walls.points.size(); i += step) {
     const glm::vec3 p = apply(r, t, b.walls.points[i]);
-    if (!a.broken_index->nearest_within(p, static_cast<float>(kWallNear * thickness))) continue;
+    if (!near_broken.within(p, kWallNear * thickness)) continue;
     all += 1.0;
-    const auto hit = a.wall_index->nearest_within(p, static_cast<float>(2.0 * kWallNear * thickness));
+    const auto hit = finder.within(p, 2.0 * kWallNear * thickness);
     if (!hit) continue;
     const glm::dvec3 n_b(r * b.walls.normals[i]);
     const glm::dvec3 n_a(a.walls.normals[hit->first]);

@@ -15,6 +15,7 @@ struct AlignOptions {
   int most_samples = 400;  ///< of B's samples; 0: all
   bool core_only = false;  ///< leave out what is next to another facet: worn edges lie
   int facet_b = -1;        ///< only samples of this facet of B; -1: of all its broken surface
+  bool quick = false;      ///< nearest points are looked up in tables: they are nearly the nearest
   int half = -1;           ///< 0 or 1: every other of B's broken samples: the two share none; -1: all
 };
 
@@ -54,7 +55,8 @@ class Joint {
 
   /// \param most_samples  of B's samples are looked at; 0: all
   /// \param facet_b       only samples of this facet of B touch; -1: all its broken surface
-  Evidence evidence(const Rigid& pose, int most_samples, int facet_b = -1) const;
+  /// \param quick         as in AlignOptions, for what speaks against the joint; the contact is measured exactly
+  Evidence evidence(const Rigid& pose, int most_samples, int facet_b = -1, bool quick = false) const;
 
   /// Distance below which surfaces touch: a twentieth of the wall of thin pieces, or what the scans can tell.
   double tolerance() const;

@@ -38,10 +38,17 @@ std::vector<Pass> passes(double tolerance, int most) {
   const auto kept = static_cast<std::size_t>(most);
   // A reach much wider than the sweep's error would pull in surfaces beside the joint, the other wall of a thin piece above
   // all; so would other facets at first.
-  return {{{10.0 * t, 4.0 * t, 8, 120}, 300, true, 10 * kept},
-          {{8.0 * t, 3.0 * t, 12, 300}, 1500, true, 3 * kept},
-          {{6.0 * t, 2.0 * t, 20, 0}, 0, false, kept},
-          {{3.0 * t, 1.0 * t, 15, 0, true}, 0, false, kept}};
+  return {
+      {{.reach_start = 10.0 * t, .reach_end = 4.0 * t, .iterations = 8, .most_samples = 120, .quick = true},
+       300,
+       true,
+       10 * kept},
+      {{.reach_start = 8.0 * t, .reach_end = 3.0 * t, .iterations = 12, .most_samples = 300, .quick = true},
+       1500,
+       true,
+       3 * kept},
+      {{6.0 * t, 2.0 * t, 20, 0}, 0, false, kept},
+      {{3.0 * t, 1.0 * t, 15, 0, true}, 0, false, kept}};
 }
 
 void refine(std::vector<Hypothesis>& list, const Joint& joint, const Pass& pass, const Context& context) {
@@ -53,7 +60,8 @@ void refine(std::vector<Hypothesis>& list, const Joint& joint, const Pass& pass,
       AlignOptions options = pass.align;
       options.facet_b = pass.facet_only ? hypothesis.facet_b : -1;
       hypothesis.pose = joint.align(hypothesis.pose, options);
-      hypothesis.evidence = joint.evidence(hypothesis.pose, pass.evidence_samples, options.facet_b);
+      hypothesis.evidence =
+          joint.evidence(hypothesis.pose, pass.evidence_samples, options.facet_b, options.quick);
       hypothesis.strength = strength(hypothesis.evidence);
       done[k] = 1;
     }

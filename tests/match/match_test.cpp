@@ -159,6 +159,33 @@ TEST(Joint, AlignmentBringsADisturbedPoseBack) {
   EXPECT_LT(worst_offset(fine, pair.truth, pair.b.surface), 0.4);
 }
 
+TEST(Joint, QuickAlignmentEndsNextToTheExactOne) {
+  const Pair pair = make_pair(9);
+  const Joint joint(pair.a, pair.b);
+  const Rigid disturbed = Rigid{axis_rotation({0.6, 0, 0.8}, 3.0 * kDegree), {0.8, -0.6, 0.5}} * pair.truth;
+  const double tolerance = joint.tolerance();
+  AlignOptions options{20.0 * tolerance, 4.0 * tolerance, 20, 0};
+  const Rigid exact = joint.align(disturbed, options);
+  options.quick = true;
+  const Rigid quick = joint.align(disturbed, options);
+  // What the exact alignment from here on takes off; it starts 3 mm off.
+  EXPECT_LT(worst_offset(quick, exact, pair.b.surface), 0.4);
+}
+
+TEST(Joint, QuickEvidenceIsNearlyTheExactOne) {
+  const Pair pair = make_pair(10);
+  const Joint joint(pair.a, pair.b);
+  const glm::dvec3 inwards = -pair.planted.direction_a;
+  const Evidence exact = joint.evidence(pair.truth, 0);
+  const Evidence quick = joint.evidence(pair.truth, 0, -1, true);
+  EXPECT_EQ(quick.contact_area, exact.contact_area);
+  EXPECT_EQ(quick.information, exact.information);
+  EXPECT_LT(quick.penetration_area, 0.01 * exact.contact_area);
+  const Rigid pushed = Rigid{glm::dmat3(1.0), 12.0 * joint.tolerance() * inwards} * pair.truth;
+  EXPECT_GT(joint.evidence(pushed, 0, -1, true).penetration_area,
+            0.8 * joint.evidence(pushed, 0).penetration_area);
+}
+
 TEST(Joint, TrueJointHasItsContactAreaAndNoPenetration) {
   const Pair pair = make_pair(10);
   const Joint joint(pair.a, pair.b);
