@@ -3,12 +3,15 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <tuple>
 #include <utility>
 
 #include "core/median.hpp"
+#include "match/verify.hpp"
 #include "mesh/near_table.hpp"
 #include "mesh/point_index.hpp"
 
@@ -24,10 +27,13 @@ constexpr double kWallNear = 1.2;    // wall thicknesses from the seam in which 
 constexpr double kWallClear = 0.25;  // wall thicknesses next to the seam that are left out: worn edges lie
 constexpr float kWallAlike = 0.7F;   // wall normals across a seam differ by at most 45 degrees
 constexpr double kWallWeight = 0.1;
-constexpr double kWallStep = 0.3;       // wall thicknesses by which walls that go on may be offset
-constexpr double kTableCell = 2.0;      // spacings: side of the cells of tables of near points
-constexpr double kTableReach = 20.0;    // tolerances: how far a quick alignment looks
-constexpr double kWallTableCell = 3.0;  // the same for walls, which are smooth
+constexpr double kWallStep = 0.3;        // wall thicknesses by which walls that go on may be offset
+constexpr double kTableCell = 2.0;       // spacings: side of the cells of tables of near points
+constexpr double kTableReach = 20.0;     // tolerances: how far a quick alignment looks
+constexpr double kWallTableCell = 3.0;   // the same for walls, which are smooth
+constexpr int kQuadricRounds = 12;       // at most
+constexpr double kQuadricSteady = 0.02;  // share by which the deviation may still change in the end
+constexpr double kQuadricReach = 4.7;    // robust deviations beyond which a height does not bend the quadric
 
 /// Samples of one class of one fragment.
 struct Cloud {
@@ -159,8 +165,13 @@ struct Joint::Impl {
     mesh::NearTable body;
   };
 
-  Side a;
-  Side b;
+  Impl(std::shared_ptr<const Side> of_a, std::shared_ptr<const Side> of_b)
+      : held_a(std::move(of_a)), held_b(std::move(of_b)), a(*held_a), b(*held_b) {}
+
+  std::shared_ptr<const Side> held_a;
+  std::shared_ptr<const Side> held_b;
+  const Side& a;
+  const Side& b;
   mutable Tables tables;
   mutable std::once_flag made_tables;
   double thickness = 0;
@@ -251,25 +262,30 @@ struct Joint::Impl {
     }
   }
 
+  Evidence evidence(const Rigid& pose, int most_samples, int facet_b, bool quick) const;
   void look_at_contact(const Rigid& pose, const std::vector<std::uint32_t>& from, int most_samples,
                        Evidence& e) const;
   void look_for_penetration(const Rigid& pose, int most_samples, const Finder& finder, Evidence& e) const;
   void look_at_walls(const Rigid& pose, int most_samples, bool quick, Evidence& e) const;
 };
 
-Joint::Joint(const Fragment& a, const Fragment& b) : impl_(std::make_unique<Impl>()) {
-  Impl& d = *impl_;
+Joint::Joint(const Fragment& a, const Fragment& b) {
   const double ta = a.facets.wall_thickness;
   const double tb = b.facets.wall_thickness;
-  d.thickness = ta > 0 && tb > 0 ? std::min(ta, tb) : 0.0;
-  d.spacing = std::max(a.facets.samples.spacing, b.facets.samples.spacing);
+  const double thickness = ta > 0 && tb > 0 ? std::min(ta, tb) : 0.0;
+  const double spacing = std::max(a.facets.samples.spacing, b.facets.samples.spacing);
+  const double edge = std::max(0.2 * thickness, 1.2 * spacing);
+  impl_ = std::make_unique<Impl>(std::make_shared<const Side>(side_of(a, edge)),
+                                 std::make_shared<const Side>(side_of(b, edge)));
+  back_ = std::make_unique<Impl>(impl_->held_b, impl_->held_a);
   const double scan = std::max(a.resolution, b.resolution);
-  d.tolerance = std::max(d.thickness > 0 ? 0.05 * d.thickness : 0.15 * d.spacing, 0.3 * scan);
-  d.noise = 0.05 * scan;
-  d.patch = std::max({0.5 * d.thickness, 2.5 * d.spacing, 2.5 * scan});
-  const double edge = std::max(0.2 * d.thickness, 1.2 * d.spacing);
-  d.a = side_of(a, edge);
-  d.b = side_of(b, edge);
+  for (Impl* d : {impl_.get(), back_.get()}) {
+    d->thickness = thickness;
+    d->spacing = spacing;
+    d->tolerance = std::max(thickness > 0 ? 0.05 * thickness : 0.15 * spacing, 0.3 * scan);
+    d->noise = 0.05 * scan;
+    d->patch = std::max({0.5 * thickness, 2.5 * spacing, 2.5 * scan});
+  }
 }
 
 Joint::~Joint() = default;
@@ -325,22 +341,33 @@ std::vector<double> heights_above_quadric(const std::vector<glm::dvec3>& points,
   for (const auto& p : points) centre += p / static_cast<double>(points.size());
   double size = 0.0;
   for (const auto& p : points) size = std::max(size, glm::distance(p, centre));
-  Matrix6 matrix = 1e-9 * static_cast<double>(points.size()) * Matrix6::Identity();
-  Vector6 right = Vector6::Zero();
   std::vector<Vector6> rows;
   std::vector<double> heights;
   for (const auto& p : points) {
     const glm::dvec3 q = (p - centre) * frame / size;
     Vector6 row;
     row << 1.0, q.x, q.y, q.x * q.x, q.x * q.y, q.y * q.y;
-    matrix += row * row.transpose();
-    right += q.z * row;
     rows.push_back(row);
     heights.push_back(q.z);
   }
-  const Vector6 fit = matrix.ldlt().solve(right);
-  for (std::size_t i = 0; i < points.size(); ++i) heights[i] = size * (heights[i] - fit.dot(rows[i]));
-  return heights;
+  std::vector<double> rest = heights;
+  double reach = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < kQuadricRounds; ++round) {
+    Matrix6 matrix = 1e-9 * static_cast<double>(points.size()) * Matrix6::Identity();
+    Vector6 right = Vector6::Zero();
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const double weight = tukey(rest[i], reach);
+      matrix += weight * rows[i] * rows[i].transpose();
+      right += weight * heights[i] * rows[i];
+    }
+    const Vector6 fit = matrix.ldlt().solve(right);
+    for (std::size_t i = 0; i < rows.size(); ++i) rest[i] = heights[i] - fit.dot(rows[i]);
+    const double next = kQuadricReach * std::max(1e-12, robust_deviation(rest));
+    if (std::abs(next - reach) < kQuadricSteady * next) break;
+    reach = next;
+  }
+  for (double& height : rest) height *= size;
+  return rest;
 }
 
 /// Mean of points, and the direction in which they spread most.
@@ -358,15 +385,28 @@ std::pair<glm::dvec3, glm::dvec3> middle_and_axis(const std::vector<glm::dvec3>&
 
 }  // namespace
 
-Evidence Joint::evidence(const Rigid& pose, int most_samples, int facet_b, bool quick) const {
-  const Impl& d = *impl_;
+Evidence Joint::Impl::evidence(const Rigid& pose, int most_samples, int facet_b, bool quick) const {
   Evidence e;
-  e.tolerance = d.tolerance;
-  d.look_at_contact(pose, d.b.broken_of(facet_b), most_samples, e);
-  d.look_for_penetration(pose, most_samples > 0 ? std::min(most_samples, kBodySamples) : kBodySamples,
-                         d.body_finder(quick), e);
-  if (d.thickness > 0) d.look_at_walls(pose, most_samples, quick, e);
+  e.tolerance = tolerance;
+  look_at_contact(pose, b.broken_of(facet_b), most_samples, e);
+  look_for_penetration(pose, most_samples > 0 ? std::min(most_samples, kBodySamples) : kBodySamples,
+                       body_finder(quick), e);
+  if (thickness > 0) look_at_walls(pose, most_samples, quick, e);
   return e;
+}
+
+Evidence Joint::evidence(const Rigid& pose, int most_samples, int facet_b, bool quick) const {
+  return impl_->evidence(pose, most_samples, facet_b, quick);
+}
+
+Evidence Joint::agreed_evidence(const Rigid& pose) const {
+  const Evidence there = impl_->evidence(pose, 0, -1, false);
+  Evidence back = back_->evidence(inverse(pose), 0, -1, false);
+  if (strength(there) <= strength(back)) return there;
+  back.normal = there.normal;
+  back.centre = there.centre;
+  back.along = there.along;
+  return back;
 }
 
 void Joint::Impl::look_at_contact(const Rigid& pose, const std::vector<std::uint32_t>& from, int most_samples,
@@ -403,6 +443,7 @@ void Joint::Impl::look_at_contact(const Rigid& pose, const std::vector<std::uint
   }
   e.contact_area = touching * share;
   e.shared_area = static_cast<double>(gaps.size()) * share;
+  e.patches = e.shared_area / (patch * patch);
   e.gap_median = median(gaps);
   if (glm::length(normal) > 0) e.normal = glm::normalize(normal);
   e.core_samples = static_cast<int>(core.size());

@@ -24,6 +24,7 @@ struct Evidence {
   double contact_area = 0;  ///< B's broken surface that faces A's within the tolerance
   /// B's broken surface that lies over A's, touching or not (within four tolerances).
   double shared_area = 0;
+  double patches = 0;     ///< the shared area in patches whose relief is independent
   int core_samples = 0;   ///< of the shared surface, those that are not next to another facet
   double gap_median = 0;  ///< over the shared area, mesh units, positive = apart
   double gap_spread = 0;  ///< robust deviation (1.48 MAD) of the gaps, mesh units
@@ -58,12 +59,17 @@ class Joint {
   /// \param quick         as in AlignOptions, for what speaks against the joint; the contact is measured exactly
   Evidence evidence(const Rigid& pose, int most_samples, int facet_b = -1, bool quick = false) const;
 
+  /// The evidence of all samples of that fragment whose surface speaks less for the joint: shape that only one of the two
+  /// has, such as a rough break on a plane, says nothing.  Areas are that fragment's, directions as in evidence().
+  Evidence agreed_evidence(const Rigid& pose) const;
+
   /// Distance below which surfaces touch: a twentieth of the wall of thin pieces, or what the scans can tell.
   double tolerance() const;
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
+  std::unique_ptr<Impl> back_;  ///< the same two, A and B exchanged
 };
 
 }  // namespace rejoin::match

@@ -23,7 +23,7 @@ void tighten_one(Hypothesis& hypothesis, const Joint& joint) {
   const Rigid start = hypothesis.pose;
   for (const double reach : kTighter) {
     const Rigid pose = joint.align(start, {1.0 * t, reach * t, 15, 0, true});
-    const Evidence evidence = joint.evidence(pose, 0);
+    const Evidence evidence = joint.agreed_evidence(pose);
     if (strength(evidence) <= hypothesis.strength) continue;
     hypothesis.pose = pose;
     hypothesis.evidence = evidence;
@@ -60,8 +60,10 @@ void refine(std::vector<Hypothesis>& list, const Joint& joint, const Pass& pass,
       AlignOptions options = pass.align;
       options.facet_b = pass.facet_only ? hypothesis.facet_b : -1;
       hypothesis.pose = joint.align(hypothesis.pose, options);
+      const bool all = pass.evidence_samples == 0 && !pass.facet_only;
       hypothesis.evidence =
-          joint.evidence(hypothesis.pose, pass.evidence_samples, options.facet_b, options.quick);
+          all ? joint.agreed_evidence(hypothesis.pose)
+              : joint.evidence(hypothesis.pose, pass.evidence_samples, options.facet_b, options.quick);
       hypothesis.strength = strength(hypothesis.evidence);
       done[k] = 1;
     }
