@@ -20,12 +20,12 @@
 namespace rejoin::bench {
 namespace {
 
-constexpr double kLeastStrength = 2.25;  // of a candidate that is asked about
-constexpr std::array<double, 5> kBins{0.0, 0.6, 2.0, 4.0, 8.0};
+constexpr std::array<double, 5> kBins{-1e300, -1.0, 1.0, 4.0, 8.0};
 
 /// A candidate, seen from the piece that it moves.
 struct Question {
   assembly::Link link;  // b moves
+  std::vector<std::size_t> stay;
   bool right = false;
 };
 
@@ -34,17 +34,20 @@ struct Table {
   std::array<int, kBins.size()> count{};
   int asked = 0;
 
-  void add(double strength) {
+  void add(double odds) {
     ++asked;
     std::size_t bin = 0;
-    while (bin + 1 < kBins.size() && strength >= kBins[bin + 1]) ++bin;
+    while (bin + 1 < kBins.size() && odds >= kBins[bin + 1]) ++bin;
     ++count[bin];
   }
 };
 
 class Survey {
  public:
-  Survey(const FragmentSet& set, const store::Run& run) : shelf_(set) {
+  /// \param least  strength of a candidate that is asked about
+  /// \param one    ask about one other piece at a time, not about all of them together
+  Survey(const FragmentSet& set, const store::Run& run, double least, bool one)
+      : shelf_(set), least_(least), one_(one) {
     std::map<std::string, std::size_t> number;
     for (const auto& [name, to_world] : set.to_world) {
       number[name] = pieces_.size();
@@ -61,39 +64,51 @@ class Survey {
 
   /// Tables of false and of true candidates.
   std::array<Table, 2> run() const {
-    std::vector<double> strengths(questions_.size());
+    std::vector<double> odds(questions_.size());
     parallel_for(questions_.size(), 1, [&](std::size_t first, std::size_t last) {
-      for (std::size_t k = first; k < last; ++k) strengths[k] = ask(questions_[k].link);
+      for (std::size_t k = first; k < last; ++k) odds[k] = ask(questions_[k]);
     });
     std::array<Table, 2> tables;
-    for (std::size_t k = 0; k < questions_.size(); ++k) tables[questions_[k].right ? 1 : 0].add(strengths[k]);
+    for (std::size_t k = 0; k < questions_.size(); ++k) tables[questions_[k].right ? 1 : 0].add(odds[k]);
     return tables;
   }
 
  private:
   void add(const assembly::Link& link) {
-    if (link.score < match::score_of(kLeastStrength)) return;
+    if (link.score < match::score_of(least_)) return;
     const Rigid b_to_a = inverse(truth_[link.a]) * truth_[link.b];
     const bool right =
         PairTruth(pieces_[link.a].fragment(), pieces_[link.b].fragment(), b_to_a).right(link.pose);
-    questions_.push_back({link, right});
-    questions_.push_back({{link.b, link.a, inverse(link.pose), link.score}, right});
+    ask_of(link, right);
+    ask_of({link.b, link.a, inverse(link.pose), link.score}, right);
   }
 
-  double ask(const assembly::Link& link) const {
+  void ask_of(const assembly::Link& link, bool right) {
+    std::vector<std::size_t> others;
+    for (std::size_t k = 0; k < pieces_.size(); ++k) {
+      if (k != link.a && k != link.b) others.push_back(k);
+    }
+    if (one_) {
+      for (const std::size_t k : others) questions_.push_back({link, {link.a, k}, right});
+    } else {
+      others.push_back(link.a);
+      questions_.push_back({link, others, right});
+    }
+  }
+
+  double ask(const Question& question) const {
+    const assembly::Link& link = question.link;
     std::vector<Rigid> poses = truth_;
     poses[link.b] = poses[link.a] * link.pose;
-    std::vector<std::size_t> stay;
-    for (std::size_t k = 0; k < pieces_.size(); ++k) {
-      if (k != link.b) stay.push_back(k);
-    }
-    return assembly::witness_strength(pieces_, link, std::move(poses), stay, {link.b}, {});
+    return assembly::witness_odds(pieces_, link, std::move(poses), question.stay, {link.b}, {});
   }
 
   Shelf shelf_;
   std::vector<assembly::Piece> pieces_;
   std::vector<Rigid> truth_;
   std::vector<Question> questions_;
+  double least_;
+  bool one_;
 };
 
 void print(const std::string& set, const char* kind, const Table& table) {
@@ -106,17 +121,21 @@ void print(const std::string& set, const char* kind, const Table& table) {
 }  // namespace rejoin::bench
 
 int main(int argc, char** argv) {
-  CLI::App app("Strength of contacts that no search looked for, at candidates of a run");
+  CLI::App app("Log-odds that contacts which no search looked for give to the candidates of a run");
   std::string set;
   std::string run;
   app.add_option("SET", set, "folder of scans with truth.json, one object")->required();
   app.add_option("RUN", run, "what rejoin batch made of it")->required();
+  double least = 2.25;
+  bool one = false;
+  app.add_option("--least", least, "strength from which candidates are asked about")->capture_default_str();
+  app.add_flag("--one", one, "ask about one other piece at a time");
   CLI11_PARSE(app, argc, argv);
   try {
     const auto fragments = rejoin::bench::read_set(set);
-    const rejoin::bench::Survey survey(fragments, rejoin::store::Run::open(run));
+    const rejoin::bench::Survey survey(fragments, rejoin::store::Run::open(run), least, one);
     const auto tables = survey.run();
-    fmt::print("| set | candidates | asked | below 0.6 | 0.6 to 2 | 2 to 4 | 4 to 8 | 8 and more |\n");
+    fmt::print("| set | candidates | asked | below -1 | -1 to 1 | 1 to 4 | 4 to 8 | 8 and more |\n");
     fmt::print("| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n");
     rejoin::bench::print(fragments.name, "false", tables[0]);
     rejoin::bench::print(fragments.name, "true", tables[1]);

@@ -16,9 +16,8 @@
 namespace rejoin::assembly {
 namespace {
 
-constexpr double kFound = 0.006;    // contact without a candidate: least share of the smaller piece's surface
-constexpr double kContact = 0.001;  // the same where a candidate agrees
-constexpr double kSpacing = 0.15;   // between groups, share of the larger one's size
+constexpr double kFound = 0.006;   // contact without a candidate: least share of the smaller piece's surface
+constexpr double kSpacing = 0.15;  // between groups, share of the larger one's size
 
 std::vector<Piece> make_pieces(const std::vector<match::Fragment>& fragments) {
   std::vector<std::optional<Piece>> slots(fragments.size());
@@ -81,7 +80,7 @@ class Assembler {
     number_groups(result);
     context.report("align", 0.5);
     for (std::size_t g = 0; g < members_.size(); ++g) {
-      if (!context.cancelled()) align(members_[g]);
+      if (!context.cancelled()) grower_.settle(growth_, members_[g]);
       context.report("align", 0.5 + 0.5 * static_cast<double>(g + 1) / static_cast<double>(members_.size()));
     }
     for (const auto& members : members_) find_joins(members, result);
@@ -122,35 +121,6 @@ class Assembler {
     return std::min(pieces_[a].area(), pieces_[b].area());
   }
 
-  std::vector<Touching> contacts_of(const std::vector<std::size_t>& members) const {
-    std::vector<Touching> contacts;
-    for (std::size_t x = 0; x < members.size(); ++x) {
-      for (std::size_t y = x + 1; y < members.size(); ++y) {
-        const std::size_t a = members[x];
-        const std::size_t b = members[y];
-        const std::size_t link = grower_.agreeing(growth_, a, b);
-        if (link < links_.size()) {
-          const bool same = links_[link].a == a;
-          contacts.push_back({a, b, same ? links_[link].pose : inverse(links_[link].pose), true});
-        } else if (touch(pieces_[a], pieces_[b], relative(a, b)).area > kContact * smaller_area(a, b)) {
-          contacts.push_back({a, b, relative(a, b), false});
-        }
-      }
-    }
-    return contacts;
-  }
-
-  /// Twice, as pieces that come to touch by the first alignment take part in the second.
-  void align(const std::vector<std::size_t>& members) {
-    std::vector<std::size_t> fixed;
-    for (const std::size_t piece : members) {
-      if (is_pinned(piece)) fixed.push_back(piece);
-    }
-    for (int round = 0; round < 2; ++round) {
-      spread_error(pieces_, members, contacts_of(members), fixed, growth_.poses);
-    }
-  }
-
   bool is_unwanted(std::size_t a, std::size_t b) const {
     const auto& list = options_.constraints.must_not_join;
     return std::any_of(list.begin(), list.end(), [&](const auto& p) {
@@ -170,9 +140,10 @@ class Assembler {
         const Touch contact = touch(pieces_[a], pieces_[b], relative(a, b));
         const double share = contact.area / smaller_area(a, b);
         if (share < (matched ? kContact : kFound) && !(matched && used.count(link) != 0)) continue;
-        const double score = matched
-                                 ? links_[link].score
-                                 : match::score_of(contact_strength(pieces_[a], pieces_[b], relative(a, b)));
+        const double score =
+            matched
+                ? links_[link].score
+                : match::score_of(match::strength(contact_evidence(pieces_[a], pieces_[b], relative(a, b))));
         result.joins.push_back({a, b, score, contact.area, contact.gap_median, link >= given_});
       }
     }

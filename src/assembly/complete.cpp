@@ -13,9 +13,8 @@ namespace {
 
 constexpr double kLeastScore = 0.3;  // of the links that are combined
 constexpr std::size_t kPerPair = 2;
-constexpr std::size_t kMost = 1000;    // combinations
-constexpr double kLikely = 0.5;        // of what comes out
-constexpr double kLeastTouch = 0.001;  // share of the smaller piece's surface
+constexpr std::size_t kMost = 1000;  // combinations
+constexpr double kLikely = 0.5;      // of what comes out
 
 using Key = std::pair<std::size_t, std::size_t>;
 
@@ -74,7 +73,7 @@ class Completer {
     const Piece& a = pieces_[guess.a];
     const Piece& b = pieces_[guess.b];
     if (is_known(guess) || !are_near(a, b, guess.pose, 0.0)) return std::nullopt;
-    if (touch(a, b, guess.pose).area < kLeastTouch * std::min(a.area(), b.area())) return std::nullopt;
+    if (touch(a, b, guess.pose).area < kContact * std::min(a.area(), b.area())) return std::nullopt;
     const match::Joint joint(a.fragment(), b.fragment());
     const Rigid from_file{glm::dmat3(1.0), -a.fragment().surface.origin};
     const Rigid to_file{glm::dmat3(1.0), b.fragment().surface.origin};
@@ -82,7 +81,7 @@ class Completer {
     const Rigid rough =
         joint.align(from_file * guess.pose * to_file, {24.0 * tolerance, 4.0 * tolerance, 16, 300});
     const Rigid fine = joint.align(rough, {12.0 * tolerance, 3.0 * tolerance, 20, 0});
-    const double score = match::score_of(match::strength(joint.evidence(fine, 0)));
+    const double score = match::score_of(match::strength(joint.agreed_evidence(fine)));
     if (score < kLikely) return std::nullopt;
     const Link link{guess.a, guess.b, inverse(from_file) * fine * inverse(to_file), score};
     const bool stayed = same_pose(a, b, guess.pose, link.pose, options_);

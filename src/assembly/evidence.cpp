@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "match/align.hpp"
-#include "match/verify.hpp"
-
 namespace rejoin::assembly {
 namespace {
 
@@ -20,11 +17,11 @@ double log_odds(double score) {
   return std::clamp(std::log(score / (1.0 - score)), -kMost, kMost);
 }
 
-double contact_strength(const Piece& a, const Piece& b, const Rigid& b_to_a) {
+match::Evidence contact_evidence(const Piece& a, const Piece& b, const Rigid& b_to_a) {
   const Rigid from_file{glm::dmat3(1.0), -a.fragment().surface.origin};
   const Rigid to_file{glm::dmat3(1.0), b.fragment().surface.origin};
   const match::Joint joint(a.fragment(), b.fragment());
-  return match::strength(joint.evidence(from_file * b_to_a * to_file, 0));
+  return joint.agreed_evidence(from_file * b_to_a * to_file);
 }
 
 bool same_pose(const Piece& a, const Piece& b, const Rigid& first, const Rigid& second,

@@ -142,8 +142,21 @@ void Grower::rank(std::vector<Proposal>& proposals) {
                    [](const Proposal& x, const Proposal& y) { return x.certainty() > y.certainty(); });
 }
 
+/// Where a group's pieces lie off, no neighbour of theirs would fit.
+void Grower::settle_all(State& state, const Context& context) const {
+  for (const std::size_t group : state.unsettled) {
+    if (context.cancelled()) return;
+    settle(state.growth, state.members.at(group));
+    for (const auto& [key, list] : state.between) {
+      if (key.first == group || key.second == group) propose(state, key);
+    }
+  }
+  state.unsettled.clear();
+}
+
 /// Asks the contacts of other pairs about every proposal that is not sure without.  True: one became so.
 bool Grower::hear(State& state, const Context& context) {
+  settle_all(state, context);
   const double sure = log_odds(options_.sure);
   std::vector<std::pair<Key, Proposal*>> open;
   for (auto& [key, list] : state.proposals) {
@@ -152,17 +165,17 @@ bool Grower::hear(State& state, const Context& context) {
       if (!p.heard && p.certainty() >= kWorthHearing) open.emplace_back(key, &p);
     }
   }
-  std::vector<double> strengths(open.size());
+  std::vector<double> heard(open.size());
   parallel_for(open.size(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last && !context.cancelled(); ++k)
-      strengths[k] = witness(state, open[k].first, open[k].second->link);
+      heard[k] = witness(state, open[k].first, open[k].second->link);
   });
   bool any = false;
   for (std::size_t k = 0; k < open.size(); ++k) {
     Proposal& p = *open[k].second;
-    witnessed_[question(state, open[k].first, p.link)] = strengths[k];
+    witnessed_[question(state, open[k].first, p.link)] = heard[k];
     p.heard = true;
-    p.agreeing = std::max(p.agreeing, witness_odds(strengths[k]));
+    p.agreeing = p.agreeing > 0.0 ? std::max(p.agreeing, heard[k]) : heard[k];
     any = any || p.certainty() >= sure;
   }
   for (auto& [key, list] : state.proposals) rank(list);
@@ -176,7 +189,7 @@ Grower::Question Grower::question(const State& state, const Key& key, std::size_
   return result;
 }
 
-/// Strength of the contacts of other pairs if a link puts two groups together.
+/// What the contacts of other pairs add if a link puts two groups together.
 double Grower::witness(const State& state, const Key& key, std::size_t link) const {
   const auto known = witnessed_.find(question(state, key, link));
   if (known != witnessed_.end()) return known->second;
@@ -186,8 +199,8 @@ double Grower::witness(const State& state, const Key& key, std::size_t link) con
   const auto& second = state.members.at(key.second);
   for (const std::size_t piece : second) poses[piece] = second_to_first * poses[piece];
   const bool fewer = second.size() <= first.size();
-  return witness_strength(pieces_, links_[link], std::move(poses), fewer ? first : second,
-                          fewer ? second : first, options_);
+  return witness_odds(pieces_, links_[link], std::move(poses), fewer ? first : second, fewer ? second : first,
+                      options_);
 }
 
 /// Uses the most certain proposal of all, or finds that it does not fit.  False: none is certain enough.
@@ -328,6 +341,8 @@ void Grower::merge(State& state, std::size_t link) const {
     state.members[into].push_back(piece);
   }
   state.members.erase(from);
+  state.unsettled.erase(from);
+  state.unsettled.insert(into);
   state.growth.used.push_back(link);
 
   std::map<Key, std::vector<std::size_t>> moved;
@@ -359,6 +374,38 @@ std::size_t Grower::agreeing(const Growth& growth, std::size_t a, std::size_t b)
     if (same_pose(pieces_[l.a], pieces_[l.b], l.pose, relative, options_)) return k;
   }
   return links_.size();
+}
+
+std::vector<Touching> Grower::contacts_of(const Growth& growth,
+                                          const std::vector<std::size_t>& members) const {
+  std::vector<Touching> contacts;
+  for (std::size_t x = 0; x < members.size(); ++x) {
+    for (std::size_t y = x + 1; y < members.size(); ++y) {
+      const std::size_t a = members[x];
+      const std::size_t b = members[y];
+      const Rigid b_to_a = inverse(growth.poses[a]) * growth.poses[b];
+      const std::size_t link = agreeing(growth, a, b);
+      const double least = kContact * std::min(pieces_[a].area(), pieces_[b].area());
+      if (link < links_.size()) {
+        const bool same = links_[link].a == a;
+        contacts.push_back({a, b, same ? links_[link].pose : inverse(links_[link].pose), true});
+      } else if (touch(pieces_[a], pieces_[b], b_to_a).area > least) {
+        contacts.push_back({a, b, b_to_a, false});
+      }
+    }
+  }
+  return contacts;
+}
+
+/// Twice, as pieces that come to touch by the first alignment take part in the second.
+void Grower::settle(Growth& growth, const std::vector<std::size_t>& members) const {
+  std::vector<std::size_t> fixed;
+  for (const auto& [piece, pose] : options_.constraints.pinned) {
+    if (std::find(members.begin(), members.end(), piece) != members.end()) fixed.push_back(piece);
+  }
+  for (int round = 0; round < 2; ++round) {
+    spread_error(pieces_, members, contacts_of(growth, members), fixed, growth.poses);
+  }
 }
 
 std::vector<std::size_t> Grower::unsatisfied(const Growth& growth) const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "assembly/evidence.hpp"
+#include "assembly/spread.hpp"
 
 namespace rejoin::assembly {
 
@@ -48,6 +49,9 @@ class Grower {
   /// The link of a pair that agrees with the growth and has the best score; links.size() if none does.
   std::size_t agreeing(const Growth& growth, std::size_t a, std::size_t b) const;
 
+  /// Moves the members of a group so that all their contacts fit as well as they can together; pinned pieces stay.
+  void settle(Growth& growth, const std::vector<std::size_t>& members) const;
+
  private:
   using Key = std::pair<std::size_t, std::size_t>;  ///< two groups or fragments, the smaller number first
 
@@ -71,6 +75,7 @@ class Grower {
     std::map<std::size_t, std::vector<std::size_t>> members;
     std::map<Key, std::vector<std::size_t>> between;  ///< links between two groups
     std::map<Key, std::vector<Proposal>> proposals;   ///< best first
+    std::set<std::size_t> unsettled;                  ///< groups that grew since they were settled
     const std::set<std::size_t>* first = nullptr;
   };
 
@@ -79,6 +84,7 @@ class Grower {
   void propose(State& state, const Key& key) const;
   Proposal weigh(const State& state, const Key& key, std::size_t link) const;
   static void rank(std::vector<Proposal>& proposals);
+  void settle_all(State& state, const Context& context) const;
   bool hear(State& state, const Context& context);
   Question question(const State& state, const Key& key, std::size_t link) const;
   double witness(const State& state, const Key& key, std::size_t link) const;
@@ -96,6 +102,7 @@ class Grower {
 
   /// Takes the second group's frame to the first's, by a link between them.
   Rigid transform(const State& state, std::size_t link, std::size_t into) const;
+  std::vector<Touching> contacts_of(const Growth& growth, const std::vector<std::size_t>& members) const;
   bool must(const std::vector<Key>& pairs, std::size_t link) const;
 
   const std::vector<Piece>& pieces_;

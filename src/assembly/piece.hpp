@@ -78,6 +78,9 @@ struct Touch {
 /// The broken surfaces' contact.
 Touch touch(const Piece& a, const Piece& b, const Rigid& b_to_a);
 
+/// Contact below this share of the smaller piece's surface is none.
+inline constexpr double kContact = 0.001;
+
 /// Overlap above which two pieces cannot lie as they do.
 inline constexpr double kMostOverlap = 0.03;
 

@@ -1,6 +1,7 @@
 #include "assembly/witness.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "assembly/spread.hpp"
 #include "match/verify.hpp"
@@ -8,9 +9,12 @@
 namespace rejoin::assembly {
 namespace {
 
-constexpr double kHeard = 0.6;         // strength below which a contact says nothing
-constexpr double kSurprise = 2.5;      // log-odds of a contact that says something at all
-constexpr double kLeastTouch = 0.001;  // share of the smaller piece's surface
+constexpr double kTouchTrue =
+    0.85;  // share of what lies over another surface that touches it, in true contacts
+constexpr double kTouchFalse = 0.45;   // and in false ones
+constexpr double kMostPatches = 16.0;  // a contact is one surface, whose patches go together
+constexpr double kHeard = 1.0;         // log-odds that false poses next to never get from their neighbours
+constexpr double kSurprise = 2.0;      // what getting them adds
 
 bool is_own(const Link& link, std::size_t a, std::size_t b) {
   return (link.a == a && link.b == b) || (link.a == b && link.b == a);
@@ -22,7 +26,7 @@ class Meeting {
           const Options& options)
       : pieces_(pieces), link_(link), poses_(std::move(poses)), options_(options) {}
 
-  double strength(const std::vector<std::size_t>& stay, const std::vector<std::size_t>& move) {
+  double odds(const std::vector<std::size_t>& stay, const std::vector<std::size_t>& move) {
     std::vector<Touching> contacts = between(stay, move);
     if (contacts.size() < 2 || overlaps(stay, move)) return 0.0;
     const std::size_t others = contacts.size();
@@ -44,10 +48,9 @@ class Meeting {
     for (std::size_t k = 0; k < others; ++k) {
       const auto [a, b, pose, matched] = contacts[k];
       if (is_own(link_, a, b)) continue;
-      const double found = contact_strength(pieces_[a], pieces_[b], relative(a, b));
-      if (found >= kHeard) sum += found;
+      sum += witness_odds(contact_evidence(pieces_[a], pieces_[b], relative(a, b)));
     }
-    return sum;
+    return sum >= kHeard ? sum + kSurprise : sum;
   }
 
  private:
@@ -60,7 +63,7 @@ class Meeting {
     for (const std::size_t a : stay) {
       for (const std::size_t b : move) {
         const Rigid b_to_a = relative(a, b);
-        const double least = kLeastTouch * std::min(pieces_[a].area(), pieces_[b].area());
+        const double least = kContact * std::min(pieces_[a].area(), pieces_[b].area());
         if (is_own(link_, a, b) || touch(pieces_[a], pieces_[b], b_to_a).area > least)
           contacts.push_back({a, b, b_to_a, false});
       }
@@ -84,14 +87,21 @@ class Meeting {
 
 }  // namespace
 
-double witness_odds(double strength) {
-  return strength >= kHeard ? kSurprise + match::log_odds(strength) - match::log_odds(0.0) : 0.0;
+double witness_odds(const match::Evidence& evidence) {
+  const double over = evidence.shared_area + evidence.penetration_area;
+  if (!(over > 0)) return 0.0;
+  const double touching = evidence.contact_area / over;
+  const double patches = std::min(kMostPatches, evidence.patches * over / evidence.shared_area);
+  const double contact = touching * std::log(kTouchTrue / kTouchFalse) +
+                         (1.0 - touching) * std::log((1.0 - kTouchTrue) / (1.0 - kTouchFalse));
+  const double shape = match::log_odds(match::strength(evidence)) - match::log_odds(0.0);
+  return patches * contact + std::max(0.0, shape);
 }
 
-double witness_strength(const std::vector<Piece>& pieces, const Link& link, std::vector<Rigid> poses,
-                        const std::vector<std::size_t>& stay, const std::vector<std::size_t>& move,
-                        const Options& options) {
-  return Meeting(pieces, link, std::move(poses), options).strength(stay, move);
+double witness_odds(const std::vector<Piece>& pieces, const Link& link, std::vector<Rigid> poses,
+                    const std::vector<std::size_t>& stay, const std::vector<std::size_t>& move,
+                    const Options& options) {
+  return Meeting(pieces, link, std::move(poses), options).odds(stay, move);
 }
 
 }  // namespace rejoin::assembly
