@@ -1,6 +1,7 @@
 /// rejoin outline assemble
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 
@@ -26,9 +27,11 @@ std::string summary(const std::vector<outline::Piece>& pieces, const outline::As
     if (placement.group >= sizes.size()) sizes.resize(placement.group + 1, 0);
     ++sizes[placement.group];
   }
-  std::string text = fmt::format("{} of {} pieces placed by {} joins, borders {:.3g} apart (rms)\n",
-                                 pieces.size() - assembly.unplaced.size(), pieces.size(),
-                                 assembly.joins.size(), assembly.rms);
+  const auto proposed = std::count_if(assembly.joins.begin(), assembly.joins.end(),
+                                      [](const outline::AssemblyJoin& join) { return join.proposed; });
+  std::string text = fmt::format(
+      "{} of {} pieces placed; {} joins, {} of them found pair by pair, borders {:.3g} apart (rms)\n",
+      pieces.size() - assembly.unplaced.size(), pieces.size(), assembly.joins.size(), proposed, assembly.rms);
   for (std::size_t group = 0; group < sizes.size() && sizes[group] > 1; ++group)
     text += fmt::format("  object {}: {} pieces\n", group + 1, sizes[group]);
   for (const std::size_t piece : assembly.unplaced)

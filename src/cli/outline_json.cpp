@@ -75,13 +75,18 @@ std::string assembly_json(const std::vector<outline::Piece>& pieces, const outli
     joins.push_back({{"a", pieces[join.a].name},
                      {"b", pieces[join.b].name},
                      {"score", join.score},
-                     {"contact", join.contact}});
+                     {"contact", join.contact},
+                     {"proposed", join.proposed}});
+  ordered_json touches = ordered_json::array();
+  for (const outline::AssemblyJoin& touch : assembly.touches)
+    touches.push_back({{"a", pieces[touch.a].name}, {"b", pieces[touch.b].name}, {"contact", touch.contact}});
   ordered_json unplaced = ordered_json::array();
   for (const std::size_t piece : assembly.unplaced) unplaced.push_back(pieces[piece].name);
   const ordered_json json = {
       {"schema", "rejoin.assembly/1"},
       {"fragments", fragments},
       {"joins", joins},
+      {"touches", touches},
       {"unplaced", unplaced},
       {"rms", assembly.rms},
       {"search",

@@ -9,6 +9,7 @@
 
 #include "core/parallel.hpp"
 #include "outline/layout.hpp"
+#include "outline/shared_border.hpp"
 
 namespace rejoin::outline {
 namespace {
@@ -22,8 +23,9 @@ constexpr double kLeastHint = 1.5;
 // Motions of a group that differ by less are one: radians, and share of the piece's size.
 constexpr double kSameTurn = 0.05;
 constexpr double kSameShift = 0.04;
-// A contact is a join of the result from this on: nats, and steps.
+// What holds a part of a group to the rest, nats.
 constexpr double kLeastJoin = 2.0;
+// Pieces that share less than this, or face each other over less, only touch, as corners do; steps.
 constexpr double kShortestJoin = 8.0;
 // Information, in nats, at which a score is a half.
 constexpr double kHalfScore = 20.0;
@@ -284,43 +286,90 @@ std::vector<std::vector<double>> similarity(const std::vector<Link>& links, std:
   return matrix;
 }
 
-/// Reads the result off the layout.
-Assembly described(const Layout& layout, double step) {
-  Assembly assembly;
-  assembly.placements.resize(layout.size());
-  std::vector<std::size_t> order;
-  for (std::size_t g = 0; g < layout.size(); ++g)
-    if (!layout.members(g).empty()) order.push_back(g);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t p, std::size_t q) {
-    return layout.members(p).size() > layout.members(q).size();
+/// Whether the search for pairs proposed a join at about the pose in which the pieces lie now.
+bool proposed(const std::vector<Link>& links, const SharedBorder& border, const Layout& layout,
+              const std::vector<Silhouette>& shapes) {
+  const Silhouette& shape = shapes[border.b];
+  const glm::dvec2 centre = 0.5 * (shape.low + shape.high);
+  const Planar placed = inverse(layout.pose(border.a)) * layout.pose(border.b);
+  return std::any_of(links.begin(), links.end(), [&](const Link& link) {
+    return link.a == border.a && link.b == border.b && angle_between(link.pose, placed) < kSameTurn &&
+           glm::distance(link.pose(centre), placed(centre)) <
+               kSameShift * glm::distance(shape.low, shape.high);
   });
-  double squares = 0.0;
-  double length = 0.0;
-  for (std::size_t number = 0; number < order.size(); ++number) {
-    std::vector<double> support(layout.size(), 0.0);
-    for (const PlacedContact& c : layout.contacts_within(order[number])) {
+}
+
+/// Reads the result off the layout.
+class Description {
+ public:
+  Description(const std::vector<Piece>& pieces, const std::vector<Silhouette>& shapes,
+              const std::vector<Link>& links, const Layout& layout, double step)
+      : pieces_(pieces), shapes_(shapes), links_(links), layout_(layout), step_(step) {}
+
+  Assembly assembly() {
+    result_.placements.resize(layout_.size());
+    std::vector<std::size_t> order;
+    for (std::size_t g = 0; g < layout_.size(); ++g)
+      if (!layout_.members(g).empty()) order.push_back(g);
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t p, std::size_t q) {
+      return layout_.members(p).size() > layout_.members(q).size();
+    });
+    for (std::size_t number = 0; number < order.size(); ++number) add_group(order[number], number);
+    std::sort(result_.unplaced.begin(), result_.unplaced.end());
+    std::stable_sort(result_.joins.begin(), result_.joins.end(),
+                     [](const AssemblyJoin& p, const AssemblyJoin& q) { return p.score > q.score; });
+    result_.rms = length_ > 0.0 ? std::sqrt(squares_ / length_) : 0.0;
+    return std::move(result_);
+  }
+
+ private:
+  void add_group(std::size_t group, std::size_t number) {
+    const std::vector<std::size_t>& members = layout_.members(group);
+    std::vector<double> support(layout_.size(), 0.0);
+    std::map<std::pair<std::size_t, std::size_t>, Contact> contacts;
+    for (const PlacedContact& c : layout_.contacts_within(group)) {
       support[c.a] += c.contact.information;
       support[c.b] += c.contact.information;
-      if (c.contact.information < kLeastJoin || c.contact.length < kShortestJoin * step) continue;
-      assembly.joins.push_back(
-          {c.a, c.b, c.contact.information / (c.contact.information + kHalfScore), c.contact.length});
-      squares += c.contact.length * c.contact.rms * c.contact.rms;
-      length += c.contact.length;
+      contacts[{c.a, c.b}] = c.contact;
     }
-    const bool alone = layout.members(order[number]).size() == 1;
-    for (const std::size_t piece : layout.members(order[number])) {
-      const double information = support[piece];
-      assembly.placements[piece] = {alone ? Planar{} : layout.pose(piece), number,
-                                    information / (information + kHalfScore)};
-      if (alone) assembly.unplaced.push_back(piece);
+    const bool alone = members.size() == 1;
+    for (const std::size_t piece : members) {
+      result_.placements[piece] = {alone ? Planar{} : layout_.pose(piece), number,
+                                   support[piece] / (support[piece] + kHalfScore)};
+      if (alone) result_.unplaced.push_back(piece);
+    }
+    if (!alone) add_joins(members, contacts);
+  }
+
+  void add_joins(const std::vector<std::size_t>& members,
+                 const std::map<std::pair<std::size_t, std::size_t>, Contact>& contacts) {
+    std::vector<Planar> poses;
+    poses.reserve(layout_.size());
+    for (std::size_t i = 0; i < layout_.size(); ++i) poses.push_back(layout_.pose(i));
+    for (const SharedBorder& border : shared_borders(pieces_, members, poses, kTolerance * step_)) {
+      const auto measured = contacts.find({border.a, border.b});
+      const Contact contact = measured == contacts.end() ? Contact{} : measured->second;
+      const AssemblyJoin join{border.a, border.b, contact.information / (contact.information + kHalfScore),
+                              border.length, proposed(links_, border, layout_, shapes_)};
+      if (std::min(contact.length, border.length) < kShortestJoin * step_) {
+        result_.touches.push_back(join);
+        continue;
+      }
+      result_.joins.push_back(join);
+      squares_ += border.length * border.rms * border.rms;
+      length_ += border.length;
     }
   }
-  std::sort(assembly.unplaced.begin(), assembly.unplaced.end());
-  std::stable_sort(assembly.joins.begin(), assembly.joins.end(),
-                   [](const AssemblyJoin& p, const AssemblyJoin& q) { return p.score > q.score; });
-  assembly.rms = length > 0.0 ? std::sqrt(squares / length) : 0.0;
-  return assembly;
-}
+
+  const std::vector<Piece>& pieces_;
+  const std::vector<Silhouette>& shapes_;
+  const std::vector<Link>& links_;
+  const Layout& layout_;
+  double step_;
+  Assembly result_;
+  double squares_ = 0.0;
+  double length_ = 0.0;
+};
 
 }  // namespace
 
@@ -333,7 +382,7 @@ Assembly assemble(const std::vector<Piece>& pieces, const std::vector<PairResult
   Assembler assembler(shapes, links, kTolerance * step, options);
   assembler.run(context);
   for (std::size_t g = 0; g < pieces.size(); ++g) assembler.layout().spread_error(g, kTolerance * step, 4);
-  Assembly assembly = described(assembler.layout(), step);
+  Assembly assembly = Description(pieces, shapes, links, assembler.layout(), step).assembly();
   assembly.similarity = similarity(links, pieces.size());
   assembly.cancelled = context.cancelled();
   return assembly;

@@ -25,17 +25,20 @@ struct Placement {
   double confidence = 0.0;  ///< 0..1, from all that holds the piece in its place; 0: placed nowhere
 };
 
-/// Two placed pieces that touch and fit.
+/// Two placed pieces that share border.
 struct AssemblyJoin {
   std::size_t a = 0;
   std::size_t b = 0;
-  double score = 0.0;    ///< 0..1, as JoinCandidate::score
-  double contact = 0.0;  ///< length of the common border, file units
+  double score = 0.0;    ///< 0..1, from how well the two borders follow each other; 0 where they say nothing
+  double contact = 0.0;  ///< length of the shared border, file units; see shared_borders()
+  bool proposed =
+      false;  ///< by the search for pairs; if not, the pieces lie side by side because of other joins
 };
 
 struct Assembly {
   std::vector<Placement> placements;  ///< one a piece
-  std::vector<AssemblyJoin> joins;    ///< best first
+  std::vector<AssemblyJoin> joins;    ///< all that share more than a corner, best first
+  std::vector<AssemblyJoin> touches;  ///< those that share less
   std::vector<std::size_t> unplaced;  ///< pieces that fit nowhere
   std::vector<std::vector<double>>
       similarity;          ///< length of the common border of each pair's best join, 0 if none

@@ -86,6 +86,27 @@ TEST(Assembly, RefusesAJoinThatMakesPiecesOverlap) {
   EXPECT_LT(misplaced(board, assembly, 0, 2), 0.5);
 }
 
+TEST(Assembly, TellsOfAJoinThatNoPairWasFoundFor) {
+  const planted::Board board = planted::broken_board(2, 2, 0.05, 43);
+  // Pieces 0 and 1, 0 and 2, 1 and 3: nothing was found for 2 and 3, which lie side by side all the same.
+  std::vector<PairResult> pairs(6);
+  const auto known = [&](std::size_t pair, std::size_t a, std::size_t b) {
+    JoinCandidate join;
+    join.score = 0.9;
+    join.pose = inverse(board.poses[a]) * board.poses[b];
+    pairs[pair].candidates = {join};
+  };
+  known(0, 0, 1);
+  known(1, 0, 2);
+  known(4, 1, 3);
+  const Assembly assembly = assemble(board.pieces, pairs, {}, Context());
+  ASSERT_EQ(assembly.joins.size(), 4U);
+  for (const AssemblyJoin& join : assembly.joins) {
+    EXPECT_EQ(join.proposed, !(join.a == 2 && join.b == 3)) << join.a << " and " << join.b;
+    EXPECT_GT(join.contact, 80.0) << join.a << " and " << join.b;
+  }
+}
+
 TEST(Assembly, TakesOffAPieceInTheWayOfABetterJoin) {
   const planted::Board board = planted::broken_board(3, 1, 0.05, 42);
   const double length = perimeter(board.pieces[0].outline.points);
