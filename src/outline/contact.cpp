@@ -32,8 +32,9 @@ struct Side {
   double squares = 0.0;
 };
 
-Side measure_side(const Silhouette& a, const Silhouette& b, const Planar& a_to_b, double tolerance) {
+Side measure_side(const Silhouette& a, const Silhouette& b, const Planar& motion, double tolerance) {
   Side side;
+  const Motion a_to_b(motion);
   const glm::dvec2 low = b.low - tolerance;
   const glm::dvec2 high = b.high + tolerance;
   const std::size_t count = a.points.size();
@@ -114,14 +115,15 @@ Planar settle(const Silhouette& a, const Silhouette& b, const Planar& b_to_a, do
     // Unknown: a turn about B's centre (times the arm, so that all three are lengths) and a shift, in A's frame.
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
-    const glm::dvec2 pivot = pose(centre);
+    const Motion motion(pose);
+    const glm::dvec2 pivot = motion(centre);
     for (std::size_t i = 0; i < b.points.size(); ++i) {
-      const glm::dvec2 p = pose(b.points[i]);
+      const glm::dvec2 p = motion(b.points[i]);
       const double depth = a.field(p);
       if (std::abs(depth) > tolerance) continue;
       const glm::dvec2 inward = a.field.gradient(p);
       const double slope = glm::length(inward);
-      if (slope <= 0.0 || glm::dot(pose.direction(b.normals[i]), inward) < kFacing * slope) continue;
+      if (slope <= 0.0 || glm::dot(motion.direction(b.normals[i]), inward) < kFacing * slope) continue;
       const glm::dvec2 off = (p - pivot) / arm;
       const Eigen::Vector3d row(inward.y * off.x - inward.x * off.y, inward.x, inward.y);
       normal += row * row.transpose();

@@ -68,17 +68,27 @@ struct JoinFitter::State {
       limits.push_back(kTurningLimit * detail::usual_turning(scales, k));
   }
 
-  /// Area that lies deeper than `ignored` in both.
-  double overlap_area(std::size_t a, std::size_t b, const Planar& pose, double ignored) const {
+  /// Area that lies in both.
+  struct Overlap {
+    double all = 0.0;
+    double deep = 0.0;  ///< deeper than the tolerance in both
+  };
+  Overlap overlap(std::size_t a, std::size_t b, const Planar& pose) const {
     const bool a_smaller = areas[a] < areas[b];
     const detail::DistanceGrid& moved = grids[a_smaller ? a : b];
     const detail::DistanceGrid& other = grids[a_smaller ? b : a];
-    const Planar motion = a_smaller ? inverse(pose) : pose;
-    double cells = 0.0;
+    const Motion motion(a_smaller ? inverse(pose) : pose);
+    double all = 0.0;
+    double deep = 0.0;
     for (const glm::dvec2& p : moved.inside()) {
-      if (other.depth(motion(p)) > ignored && moved.depth(p) > ignored) cells += 1.0;
+      const double depth = other.depth(motion(p));
+      if (depth <= 0.0) continue;
+      const double own = moved.depth(p);
+      if (own > 0.0) all += 1.0;
+      if (std::min(depth, own) > tolerance) deep += 1.0;
     }
-    return cells * moved.cell() * moved.cell();
+    const double cell = moved.cell() * moved.cell();
+    return {all * cell, deep * cell};
   }
 };
 
@@ -139,10 +149,10 @@ std::optional<FittedJoin> JoinFitter::fit(std::size_t a, std::size_t b,
   for (const detail::Contact& c : contact->contacts) {
     if (c.distance > 0.0) join.gap_area += c.distance * step;
   }
-  join.overlap_area = s.overlap_area(a, b, join.pose, 0.0);
-  const double deep = s.overlap_area(a, b, join.pose, s.tolerance);
-  fitted.overlap_share = deep / std::min(s.areas[a], s.areas[b]);
-  const double along_boundary = deep / (s.tolerance * join.boundary.length);
+  const State::Overlap overlap = s.overlap(a, b, join.pose);
+  join.overlap_area = overlap.all;
+  fitted.overlap_share = overlap.deep / std::min(s.areas[a], s.areas[b]);
+  const double along_boundary = overlap.deep / (s.tolerance * join.boundary.length);
   const double residual = fitted.residual / (kResidual * s.tolerance);
   fitted.evidence =
       detail::agreement(border_a, border_b, contact->contacts) *

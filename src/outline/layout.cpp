@@ -40,15 +40,16 @@ class System {
            const Frame& frame_b) {
     const auto at_a = static_cast<Eigen::Index>(3 * index_a);
     const auto at_b = static_cast<Eigen::Index>(3 * index_b);
-    const Planar relative = inverse(pull.pose_a) * pull.pose_b;
+    const Motion relative(inverse(pull.pose_a) * pull.pose_b);
+    const Motion to_group(pull.pose_a);
     for (std::size_t k = 0; k < pull.b.points.size(); ++k) {
       const glm::dvec2 p = relative(pull.b.points[k]);
       const double depth = pull.a.field(p);
       if (std::abs(depth) > pull.tolerance) continue;
       const glm::dvec2 inward = pull.a.field.gradient(p);
       if (glm::dot(relative.direction(pull.b.normals[k]), inward) < kFacing * glm::length(inward)) continue;
-      const glm::dvec2 direction = pull.pose_a.direction(inward);
-      const glm::dvec2 place = pull.pose_a(p);
+      const glm::dvec2 direction = to_group.direction(inward);
+      const glm::dvec2 place = to_group(p);
       const Eigen::Vector3d of_a = -row_of(frame_a, place, direction);
       const Eigen::Vector3d of_b = row_of(frame_b, place, direction);
       normal_.block<3, 3>(at_a, at_a) += of_a * of_a.transpose();

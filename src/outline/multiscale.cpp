@@ -17,6 +17,12 @@ constexpr int kMostScales = 7;
 /// Poses of one pair that differ by less than this share of the smaller border are one.
 constexpr double kSamePose = 0.02;
 constexpr std::size_t kReported = 10;
+/// The search begins at coarser scales too, up to that at which a boundary of this share of the mean border is not yet lost:
+/// where the fine scales hold nothing but noise, a long boundary shows at the coarse ones alone.
+constexpr double kLongBoundary = 1.0 / 3.0;
+/// Candidates that each of these scales adds.
+constexpr std::size_t kCoarseCandidates = 4;
+constexpr int kLeastSamples = 3;
 
 class Multiscale final : public Matcher {
  public:
@@ -33,11 +39,12 @@ class Multiscale final : public Matcher {
       mean += perimeters_.back() / static_cast<double>(pieces.size());
     }
     min_length_ = options_.min_length > 0.0 ? options_.min_length : options_.min_length_share * mean;
-    scales_ = count_scales(step);
+    scales_ = count_scales(step, min_length_);
+    all_scales_ = std::max(scales_, count_scales(step, kLongBoundary * mean));
     signals_.assign(pieces.size(), {});
     parallel_for(pieces.size(), 1, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i)
-        signals_[i] = scale_space(pieces[i].outline, {step, scales_});
+        signals_[i] = scale_space(pieces[i].outline, {step, all_scales_});
     });
     encode_all();
   }
@@ -55,10 +62,10 @@ class Multiscale final : public Matcher {
   }
 
  private:
-  /// K: the coarsest scale at which a boundary of L_min is not yet lost to blurred corners.
-  int count_scales(double step) const {
+  /// K: scales down to which a boundary of L_min is not yet lost to blurred corners.
+  int count_scales(double step, double min_length) const {
     int scales = 1;
-    while (scales < kMostScales && 2.0 * step * (1.0 + 8.0 * options_.alpha) <= min_length_) {
+    while (scales < kMostScales && 2.0 * step * (1.0 + 8.0 * options_.alpha) <= min_length) {
       step *= 2.0;
       ++scales;
     }
@@ -67,7 +74,7 @@ class Multiscale final : public Matcher {
 
   void encode_all() {
     coded_.assign(signals_.size(), {});
-    for (std::size_t k = 0; k < static_cast<std::size_t>(scales_); ++k) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(all_scales_); ++k) {
       const double usual = detail::usual_turning(signals_, k);
       for (std::size_t i = 0; i < signals_.size(); ++i)
         coded_[i].push_back(detail::encode(signals_[i][k], usual));
@@ -126,7 +133,8 @@ class Multiscale final : public Matcher {
   std::vector<std::vector<PairedPlaces>> search(std::size_t a, std::size_t b, const Context& context) const {
     auto k = static_cast<std::size_t>(scales_) - 1;
     const std::size_t finest = options_.per_pair;
-    const int least = std::max(3, static_cast<int>(min_length_ / signals_[a][k].step - 8.0 * options_.alpha));
+    const int least =
+        std::max(kLeastSamples, static_cast<int>(min_length_ / signals_[a][k].step - 8.0 * options_.alpha));
     std::vector<detail::Candidate> candidates =
         detail::initial_candidates(sequences(a, b, k), parameters(k), least, finest << k);
     std::vector<std::vector<PairedPlaces>> rejected;
@@ -152,7 +160,26 @@ class Multiscale final : public Matcher {
     for (auto late = rejected.rbegin(); late != rejected.rend() && starts.size() < options_.fitted; ++late)
       starts.push_back(std::move(*late));
     if (starts.size() > options_.fitted) starts.resize(options_.fitted);
+    for (auto coarse = scales_; coarse < all_scales_ && !context.cancelled(); ++coarse)
+      add_coarse(a, b, static_cast<std::size_t>(coarse), starts);
     return starts;
+  }
+
+  /// The best candidates of a scale at which short boundaries are lost, each refined as long as finer scales say more of it.
+  void add_coarse(std::size_t a, std::size_t b, std::size_t scale,
+                  std::vector<std::vector<PairedPlaces>>& starts) const {
+    for (detail::Candidate& candidate : detail::initial_candidates(sequences(a, b, scale), parameters(scale),
+                                                                   kLeastSamples, kCoarseCandidates)) {
+      std::size_t k = scale;
+      while (k > 0) {
+        detail::Candidate next = detail::refine(sequences(a, b, k - 1), parameters(k - 1),
+                                                mapped(a, b, k, candidate), options_.band);
+        if (next.discriminant >= candidate.discriminant) break;
+        candidate = std::move(next);
+        --k;
+      }
+      starts.push_back(places(a, b, k, candidate));
+    }
   }
 
   MultiscaleOptions options_;
@@ -160,7 +187,8 @@ class Multiscale final : public Matcher {
   std::optional<JoinFitter> fitter_;
   std::vector<double> perimeters_;
   double min_length_ = 0.0;
-  int scales_ = 1;
+  int scales_ = 1;      ///< K, from L_min
+  int all_scales_ = 1;  ///< with the coarser ones
   std::vector<std::vector<ScaleSignal>> signals_;
   std::vector<std::vector<detail::Coded>> coded_;
 };

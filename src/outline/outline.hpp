@@ -31,6 +31,28 @@ struct Planar {
   }
 };
 
+/// A Planar for many points: its sine and cosine are computed once, the results are the same.
+class Motion {
+ public:
+  explicit Motion(const Planar& pose)
+      : cos_(std::cos(pose.angle_rad)),
+        sin_(std::sin(pose.angle_rad)),
+        translation_(pose.translation),
+        flipped_(pose.flipped) {}
+
+  glm::dvec2 operator()(const glm::dvec2& point) const { return direction(point) + translation_; }
+  glm::dvec2 direction(const glm::dvec2& v) const {
+    const double y = flipped_ ? -v.y : v.y;
+    return {cos_ * v.x - sin_ * y, sin_ * v.x + cos_ * y};
+  }
+
+ private:
+  double cos_;
+  double sin_;
+  glm::dvec2 translation_;
+  bool flipped_;
+};
+
 /// First apply b, then a.
 Planar operator*(const Planar& a, const Planar& b);
 

@@ -108,9 +108,11 @@ class Fitter {
     const auto middle = static_cast<std::int64_t>(std::lround(expected));
     Contact best;
     double best_square = 1e300;
+    glm::dvec2 next = sample_point(*b_.signal, middle - kWindow);
     for (std::int64_t j = middle - kWindow; j < middle + kWindow; ++j) {
-      const glm::dvec2 from = sample_point(*b_.signal, j);
-      const glm::dvec2 edge = sample_point(*b_.signal, j + 1) - from;
+      const glm::dvec2 from = next;
+      next = sample_point(*b_.signal, j + 1);
+      const glm::dvec2 edge = next - from;
       const double square = glm::dot(edge, edge);
       const double share = square > 0.0 ? std::clamp(glm::dot(point - from, edge) / square, 0.0, 1.0) : 0.0;
       const glm::dvec2 off = from + share * edge - point;
@@ -121,16 +123,17 @@ class Fitter {
     return best;
   }
 
-  void add_contact(std::int32_t i, double expected, const Planar& back,
+  /// \param there  from B to A   \param back  from A to B
+  void add_contact(std::int32_t i, double expected, const Motion& there, const Motion& back,
                    std::vector<Contact>& contacts) const {
     const glm::dvec2 on_a = sample_point(*a_.signal, i);
     Contact contact = closest(back(on_a), expected);
     contact.i = i;
     const glm::dvec2 along = tangent(*a_.signal, i);
     const glm::dvec2 normal(along.y, -along.x);  // outwards: the piece is on the left
-    contact.distance = glm::dot(fit_.pose(point_of(*b_.signal, contact.j)) - on_a, normal);
+    contact.distance = glm::dot(there(point_of(*b_.signal, contact.j)) - on_a, normal);
     const auto j = static_cast<std::int64_t>(std::lround(contact.j));
-    contact.close = glm::dot(along, fit_.pose.direction(tangent(*b_.signal, j))) < -kLeastCosine;
+    contact.close = glm::dot(along, there.direction(tangent(*b_.signal, j))) < -kLeastCosine;
     contacts.push_back(contact);
   }
 
@@ -143,7 +146,8 @@ class Fitter {
     const std::int32_t more = extend ? std::max(0, std::min(length / 2 + 8, (all - length) / 2)) : 0;
     const bool known = !fit_.contacts.empty();
     const std::vector<Contact> old = std::move(fit_.contacts);
-    const Planar back = inverse(fit_.pose);
+    const Motion there(fit_.pose);
+    const Motion back(inverse(fit_.pose));
     std::vector<Contact> before;
     std::vector<Contact> contacts;
     const auto expected = [&](std::int32_t i) {
@@ -151,14 +155,14 @@ class Fitter {
     };
     double j = expected(begin);
     for (std::int32_t i = begin - 1; i >= begin - more; --i) {
-      add_contact(i, j + 1.0, back, before);
+      add_contact(i, j + 1.0, there, back, before);
       j = before.back().j;
     }
     contacts.assign(before.rbegin(), before.rend());
-    for (std::int32_t i = begin; i <= end; ++i) add_contact(i, expected(i), back, contacts);
+    for (std::int32_t i = begin; i <= end; ++i) add_contact(i, expected(i), there, back, contacts);
     j = contacts.back().j;
     for (std::int32_t i = end + 1; i <= end + more; ++i) {
-      add_contact(i, j - 1.0, back, contacts);
+      add_contact(i, j - 1.0, there, back, contacts);
       j = contacts.back().j;
     }
     fit_.contacts = std::move(contacts);
@@ -226,6 +230,7 @@ class Fitter {
       const glm::dvec2 arm = place - centre;
       return glm::dvec4(cross(arm, direction), direction, gap);
     };
+    const Motion motion(fit_.pose);
     double weights = 0.0;
     for (const Contact& c : fit_.contacts) {
       const glm::dvec2 along = tangent(*a_.signal, c.i);
@@ -237,7 +242,7 @@ class Fitter {
         weights += weight;
       }
       if (c.i < guide_.i.front() || c.i > guide_.i.back()) continue;
-      const glm::dvec2 off = fit_.pose(point_of(*b_.signal, guide_.at(c.i))) - on_a;
+      const glm::dvec2 off = motion(point_of(*b_.signal, guide_.at(c.i))) - on_a;
       add(row_of(on_a, along, 0.0), std::clamp(glm::dot(off, along), -tolerance_, tolerance_), kAlong);
     }
     add({0.0, 0.0, 0.0, 1.0}, 0.0, kNoGap * weights);
