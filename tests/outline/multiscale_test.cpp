@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/parallel.hpp"
+#include "core/random.hpp"
 #include "shapes.hpp"
 
 namespace rejoin::outline {
@@ -37,6 +38,26 @@ TEST(Multiscale, BrokenTileIsPutTogether) {
     // The line's ends meet the tile's straight sides, where the smoothed borders part.
     const double whole = perimeter(tile.upper.points) - (300.0 + 2 * 120.0);
     EXPECT_NEAR(best.boundary.length, whole, 0.15 * whole) << seed;
+  }
+}
+
+TEST(Multiscale, FindsALongJoinThoughItLooksForShortOnesAndTheFineScaleIsNoise) {
+  for (std::uint64_t seed = 31; seed <= 33; ++seed) {
+    BrokenTile tile = broken_tile(400, 120, {0.7, {500, -200}, false}, seed);
+    Random random(seed + 1);
+    // Points are a unit apart, so directions from one to the next are off by half a radian.
+    for (Outline* outline : {&tile.lower, &tile.upper})
+      for (glm::dvec2& p : outline->points) p += glm::dvec2(0.5 * random.normal(), 0.5 * random.normal());
+    const std::vector<Piece> pieces = pieces_of(tile);
+    MultiscaleOptions options;
+    options.step = 0.7;
+    options.min_length = 20.0;  // lost by the second scale
+    options.fitted = 4;
+    const auto matcher = make_multiscale(options);
+    matcher->prepare(pieces);
+    const PairResult result = matcher->match(0, 1, Context());
+    ASSERT_FALSE(result.candidates.empty()) << seed;
+    EXPECT_LT(worst_distance(result.candidates[0].pose, tile.upper_to_lower, tile.upper), 4.0) << seed;
   }
 }
 
