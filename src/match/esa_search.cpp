@@ -295,8 +295,9 @@ zbuffer::ViewOptions whole_fragment_view(const Fragment& a, const Fragment& b, i
   zbuffer::ViewOptions view;
   view.resolution = resolution;
   view.view_side = kViewToDiameter * std::max(a.diameter, b.diameter);
-  view.centre_a = glm::vec3(view_centre(a.coarse));
-  view.centre_b = glm::vec3(view_centre(b.coarse));
+  const auto middle = [](const Fragment& f) { return f.middle ? *f.middle : view_centre(f.coarse); };
+  view.centre_a = glm::vec3(middle(a));
+  view.centre_b = glm::vec3(middle(b));
   return view;
 }
 

@@ -49,12 +49,14 @@ struct Options {
 /// A fragment made ready: surface, level of detail, facets.
 struct Fragment {
   std::string path;
-  mesh::Mesh scan;                ///< as loaded (after clean-up)
-  mesh::Mesh surface;             ///< triangles at full resolution: the scan, or the surface of its cloud
-  mesh::Mesh coarse;              ///< a level of detail for depth maps: at most 40,000 faces
-  mesh::Segmentation facets;      ///< of `surface`
-  double diameter = 0;            ///< mesh units
-  double resolution = 0;          ///< sample spacing, mesh units
+  mesh::Mesh scan;            ///< as loaded (after clean-up)
+  mesh::Mesh surface;         ///< triangles at full resolution: the scan, or the surface of its cloud
+  mesh::Mesh coarse;          ///< a level of detail for depth maps: at most 40,000 faces
+  mesh::Segmentation facets;  ///< of `surface`
+  double diameter = 0;        ///< mesh units
+  double resolution = 0;      ///< sample spacing, mesh units
+  std::optional<glm::dvec3>
+      middle;  ///< view_centre() of `coarse`, where it is known: it takes time at every pair else
   std::vector<StageTime> stages;  ///< surface (of a cloud), coarse, facets; load where a file was read
 };
 

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "match/match.hpp"
+#include "match/pose_space.hpp"
 #include "mesh/surface.hpp"
 
 namespace rejoin::match {
@@ -25,6 +26,7 @@ Fragment prepare(std::string path, mesh::Mesh scan, const Context& context) {
   fragment.coarse = fragment.surface.faces.size() > kCoarseFaces
                         ? mesh::simplify(fragment.surface, kCoarseFaces)
                         : fragment.surface;
+  fragment.middle = view_centre(fragment.coarse);
   clock.lap("coarse");
   fragment.diameter = mesh::diameter(fragment.surface);
   fragment.resolution = mesh::resolution(fragment.surface);
