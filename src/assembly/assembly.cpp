@@ -181,6 +181,10 @@ class Assembler {
         odds[piece] += more > 0.0 ? std::max(0.0, log_odds(join.score) + more) : log_odds(join.score);
       }
     }
+    for (std::size_t k = 0; k < growth_.used.size(); ++k) {
+      const Link& link = links_[growth_.used[k]];
+      for (const std::size_t piece : {link.a, link.b}) odds[piece] = std::max(odds[piece], growth_.odds[k]);
+    }
     for (std::size_t k = 0; k < pieces_.size(); ++k) {
       Placement& placement = result.placements[k];
       if (placement.group < 0) continue;

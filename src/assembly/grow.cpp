@@ -94,7 +94,7 @@ Rigid Grower::transform(const State& state, std::size_t link, std::size_t into) 
 }
 
 Grower::Proposal Grower::weigh(const State& state, const Key& key, std::size_t link) const {
-  Proposal proposal{link, odds_[link], 0.0, false, links_.size()};
+  Proposal proposal{link, odds_[link], 0.0, 0.0, false, links_.size()};
   const Rigid second_to_first = transform(state, link, key.first);
   const double sure = log_odds(options_.sure);
   const Key own = key_of(links_[link].a, links_[link].b);
@@ -119,8 +119,8 @@ Grower::Proposal Grower::weigh(const State& state, const Key& key, std::size_t l
     proposal.alone -= odds_[other];
     proposal.against = other;
   }
-  if (state.first->count(link) != 0) proposal.alone += kFirst;
-  if (must(wanted_, link)) proposal.alone += kWanted;
+  if (state.first->count(link) != 0) proposal.wish += kFirst;
+  if (must(wanted_, link)) proposal.wish += kWanted;
   return proposal;
 }
 
@@ -216,7 +216,7 @@ bool Grower::try_best(State& state) {
   const Proposal used = best->front();
   best->erase(best->begin());
   if (!fits(state, used.link)) return true;
-  merge(state, used.link);
+  merge(state, used.link, used.alone + used.agreeing);
   if (used.heard) state.growth.vouched += used.agreeing;
   return true;
 }
@@ -286,8 +286,8 @@ bool Grower::try_triangle(State& state) {
   }
   std::sort(best.begin(), best.end(), [&](std::size_t x, std::size_t y) { return odds_[x] > odds_[y]; });
   if (!fits(state, best[0])) return true;
-  merge(state, best[0]);
-  if (fits(state, best[1])) merge(state, best[1]);
+  merge(state, best[0], most);
+  if (fits(state, best[1])) merge(state, best[1], most);
   return true;
 }
 
@@ -325,7 +325,7 @@ bool Grower::fits(State& state, std::size_t link) {
   return true;
 }
 
-void Grower::merge(State& state, std::size_t link) const {
+void Grower::merge(State& state, std::size_t link, double odds) const {
   std::size_t into = state.growth.group[links_[link].a];
   std::size_t from = state.growth.group[links_[link].b];
   const auto& pinned = options_.constraints.pinned;
@@ -344,6 +344,7 @@ void Grower::merge(State& state, std::size_t link) const {
   state.unsettled.erase(from);
   state.unsettled.insert(into);
   state.growth.used.push_back(link);
+  state.growth.odds.push_back(odds);
 
   std::map<Key, std::vector<std::size_t>> moved;
   for (auto entry = state.between.begin(); entry != state.between.end();) {

@@ -28,6 +28,7 @@ struct Growth {
   std::vector<Rigid> poses;        ///< into the group's frame
   std::vector<std::size_t> group;  ///< one of the group's members stands for it
   std::vector<std::size_t> used;   ///< links that made groups one
+  std::vector<double> odds;        ///< log-odds of each of them, with what other pairs add
   std::vector<Rejection>
       rejected;         ///< links above the limit that were not used, in the order they were tried
   double vouched = 0;   ///< log-odds that contacts without links gave to the links that were used
@@ -60,10 +61,11 @@ class Grower {
     std::size_t link;
     double alone;         ///< log-odds of the link itself, less what contradicts it
     double agreeing;      ///< log-odds that other pairs add
+    double wish;          ///< what lets it go before others
     bool heard;           ///< whether their contacts were asked, not their links alone
     std::size_t against;  ///< a strong link that contradicts; links.size(): none
 
-    double certainty() const { return alone + agreeing; }
+    double certainty() const { return alone + agreeing + wish; }
   };
 
   /// A link, and the members of both groups that it would put together.
@@ -96,7 +98,7 @@ class Grower {
   bool closes(const State& state, std::size_t one, std::size_t two, std::size_t three) const;
   bool fits(State& state, std::size_t link);
   double overlap_of(std::size_t a, std::size_t b, const Rigid& b_to_a);
-  void merge(State& state, std::size_t link) const;
+  void merge(State& state, std::size_t link, double odds) const;
   void sum_up(Growth& growth) const;
   void tell_contradictions(State& state) const;
 

@@ -206,6 +206,7 @@ TEST(Assemble, AnUnsureJoinIsUsedWhereAThirdPieceFitsThatNobodySearchedFor) {
   const Result result = run(ball(), links);
   ASSERT_EQ(result.groups, 1);
   EXPECT_EQ(result.placements[corner.c].group, 0);
+  EXPECT_GT(result.placements[corner.c].confidence, 0.98);
   EXPECT_LT(ball().worst_turn(result), 0.5);
   const auto heard = std::find_if(result.joins.begin(), result.joins.end(), [&](const Join& join) {
     return join.a == std::min(corner.b, corner.c) && join.b == std::max(corner.b, corner.c);
