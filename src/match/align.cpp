@@ -33,7 +33,7 @@ constexpr double kTableReach = 20.0;     // tolerances: how far a quick alignmen
 constexpr double kWallTableCell = 3.0;   // the same for walls, which are smooth
 constexpr int kQuadricRounds = 12;       // at most
 constexpr double kQuadricSteady = 0.02;  // share by which the deviation may still change in the end
-constexpr double kQuadricReach = 4.7;    // robust deviations beyond which a height does not bend the quadric
+constexpr double kQuadricReach = 7.0;    // robust deviations beyond which a height does not bend the quadric
 
 /// Samples of one class of one fragment.
 struct Cloud {
@@ -334,8 +334,9 @@ double robust_deviation(std::vector<double> values) {
   return 1.48 * median(values);
 }
 
-/// Heights of points above the quadric that fits them best, along `normal`.
-std::vector<double> heights_above_quadric(const std::vector<glm::dvec3>& points, const glm::dvec3& normal) {
+/// Heights of points along `normal` above the quadric that fits them best; with more rounds, that fits most of them best.
+std::vector<double> heights_above_quadric(const std::vector<glm::dvec3>& points, const glm::dvec3& normal,
+                                          int rounds) {
   const glm::dmat3 frame = frame_of(normal);
   glm::dvec3 centre(0.0);
   for (const auto& p : points) centre += p / static_cast<double>(points.size());
@@ -352,7 +353,7 @@ std::vector<double> heights_above_quadric(const std::vector<glm::dvec3>& points,
   }
   std::vector<double> rest = heights;
   double reach = std::numeric_limits<double>::infinity();
-  for (int round = 0; round < kQuadricRounds; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     Matrix6 matrix = 1e-9 * static_cast<double>(points.size()) * Matrix6::Identity();
     Vector6 right = Vector6::Zero();
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -400,13 +401,11 @@ Evidence Joint::evidence(const Rigid& pose, int most_samples, int facet_b, bool 
 }
 
 Evidence Joint::agreed_evidence(const Rigid& pose) const {
-  const Evidence there = impl_->evidence(pose, 0, -1, false);
-  Evidence back = back_->evidence(inverse(pose), 0, -1, false);
-  if (strength(there) <= strength(back)) return there;
-  back.normal = there.normal;
-  back.centre = there.centre;
-  back.along = there.along;
-  return back;
+  Evidence agreed = impl_->evidence(pose, 0, -1, false);
+  const double there = strength(agreed);
+  const double back = strength(back_->evidence(inverse(pose), 0, -1, false));
+  if (there > 0.0) agreed.information *= std::sqrt(std::max(0.0, back) / there);
+  return agreed;
 }
 
 void Joint::Impl::look_at_contact(const Rigid& pose, const std::vector<std::uint32_t>& from, int most_samples,
@@ -448,8 +447,9 @@ void Joint::Impl::look_at_contact(const Rigid& pose, const std::vector<std::uint
   if (glm::length(normal) > 0) e.normal = glm::normalize(normal);
   e.core_samples = static_cast<int>(core.size());
   if (core.size() < 12 || !(glm::length(normal) > 0)) return;
+  const int rounds = most_samples > 0 ? 1 : kQuadricRounds;  // few samples have no bulk to tell from the rest
   e.gap_spread = robust_deviation(core_gaps);
-  e.relief = robust_deviation(heights_above_quadric(core, glm::normalize(normal)));
+  e.relief = robust_deviation(heights_above_quadric(core, glm::normalize(normal), rounds));
   std::tie(e.centre, e.along) = middle_and_axis(core);
   const double patches = static_cast<double>(core.size()) * share / (patch * patch);
   e.information =
