@@ -39,8 +39,9 @@ Side measure_side(const Silhouette& a, const Silhouette& b, const Planar& motion
   const glm::dvec2 high = b.high + tolerance;
   const std::size_t count = a.points.size();
   std::vector<char> touching(count, 0);
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0, next = 1; i < count; i = next) {
     const glm::dvec2 p = a_to_b(a.points[i]);
+    next = i + b.field.stride(p, a.step);
     if (p.x < low.x || p.y < low.y || p.x > high.x || p.y > high.y) continue;
     const double depth = b.field(p);
     if (depth > 0.0) side.overlap += depth;
@@ -117,8 +118,9 @@ Planar settle(const Silhouette& a, const Silhouette& b, const Planar& b_to_a, do
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     const Motion motion(pose);
     const glm::dvec2 pivot = motion(centre);
-    for (std::size_t i = 0; i < b.points.size(); ++i) {
+    for (std::size_t i = 0, next = 1; i < b.points.size(); i = next) {
       const glm::dvec2 p = motion(b.points[i]);
+      next = i + a.field.stride(p, b.step);
       const double depth = a.field(p);
       if (std::abs(depth) > tolerance) continue;
       const glm::dvec2 inward = a.field.gradient(p);

@@ -1,6 +1,7 @@
 /// How two placed outlines touch: where, how closely, and how telling that is.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "outline/outline.hpp"
@@ -16,6 +17,10 @@ class DistanceField {
 
   /// Distance to the border, positive inside, between -reach and reach; linear between the cells.
   double operator()(const glm::dvec2& point) const;
+
+  /// How many points on, along a border whose points are at most `step` apart, the first one can come that has another value
+  /// than -reach if this point lies beyond the field's grid; 1 if it does not.  \pre step > 0
+  std::size_t stride(const glm::dvec2& point, double step) const;
 
   /// Direction in which the distance grows (into the piece), not of unit length; differences over two cells.
   glm::dvec2 gradient(const glm::dvec2& point) const;

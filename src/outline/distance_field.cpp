@@ -92,6 +92,13 @@ double DistanceField::operator()(const glm::dvec2& point) const {
   return (1.0 - v) * ((1.0 - u) * row[0] + u * row[1]) + v * ((1.0 - u) * next[0] + u * next[1]);
 }
 
+std::size_t DistanceField::stride(const glm::dvec2& point, double step) const {
+  const glm::dvec2 last = origin_ + cell_ * glm::dvec2(columns_ - 1, rows_ - 1);
+  const glm::dvec2 off = glm::max(origin_ - point, point - last);
+  const double outside = std::max(off.x, off.y);
+  return outside > step ? static_cast<std::size_t>(std::ceil(outside / step)) : 1;
+}
+
 glm::dvec2 DistanceField::gradient(const glm::dvec2& point) const {
   const DistanceField& field = *this;
   return glm::dvec2(field(point + glm::dvec2(cell_, 0)) - field(point - glm::dvec2(cell_, 0)),

@@ -42,8 +42,9 @@ class System {
     const auto at_b = static_cast<Eigen::Index>(3 * index_b);
     const Motion relative(inverse(pull.pose_a) * pull.pose_b);
     const Motion to_group(pull.pose_a);
-    for (std::size_t k = 0; k < pull.b.points.size(); ++k) {
+    for (std::size_t k = 0, next = 1; k < pull.b.points.size(); k = next) {
       const glm::dvec2 p = relative(pull.b.points[k]);
+      next = k + pull.a.field.stride(p, pull.b.step);
       const double depth = pull.a.field(p);
       if (std::abs(depth) > pull.tolerance) continue;
       const glm::dvec2 inward = pull.a.field.gradient(p);

@@ -21,7 +21,7 @@ constexpr std::size_t kReported = 10;
 /// where the fine scales hold nothing but noise, a long boundary shows at the coarse ones alone.
 constexpr double kLongBoundary = 1.0 / 3.0;
 /// Candidates that each of these scales adds.
-constexpr std::size_t kCoarseCandidates = 4;
+constexpr std::size_t kCoarseCandidates = 2;
 constexpr int kLeastSamples = 3;
 
 class Multiscale final : public Matcher {

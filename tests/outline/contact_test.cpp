@@ -42,6 +42,24 @@ TEST(DistanceField, IsClampedFarFromTheBorder) {
   EXPECT_FLOAT_EQ(static_cast<float>(field({102, 40})), -2.0F);
 }
 
+TEST(DistanceField, StridesOverNothingThatItKnows) {
+  const DistanceField field(rectangle({0, 0}, {100, 80}).points, 1.0, 5.0);
+  EXPECT_EQ(field.stride({50, 40}, 2.0), 1U);
+  EXPECT_GT(field.stride({-200, 40}, 2.0), 80U);
+  for (int direction = 0; direction < 16; ++direction) {
+    const glm::dvec2 along(std::cos(0.4 * direction), std::sin(0.4 * direction));
+    std::size_t next = 0;
+    for (std::size_t k = 0; k < 300; ++k) {
+      const glm::dvec2 p = glm::dvec2(50, 40) + (300.0 - 2.0 * static_cast<double>(k)) * along;
+      if (k == next) {
+        next = k + field.stride(p, 2.0);
+      } else {
+        EXPECT_EQ(field(p), -5.0) << direction << " " << k;
+      }
+    }
+  }
+}
+
 TEST(Contact, OfTwoRectanglesIsTheirCommonSide) {
   const Silhouette a(rectangle({0, 0}, {100, 80}), 1.0, 0.0);
   const Silhouette b(rectangle({0, 0}, {60, 50}), 1.0, 0.0);
