@@ -79,9 +79,9 @@ match::Fragment load_prepared(const store::Fragment& fragment, const fs::path& c
   const fs::path kept = cache / (fragment.hash + ".drc");
   std::optional<mesh::Mesh> surface = kept_surface(kept);
   if (!surface) {
-    mesh::Mesh scan = mesh::load(fragment.path).mesh;
+    const mesh::Mesh scan = mesh::load(fragment.path).mesh;
     require_body(scan, fragment.path);
-    keep(kept, match::prepare(fragment.path, std::move(scan), context).surface);
+    keep(kept, match::surface_of(fragment.path, scan));
     surface = mesh::load(kept).mesh;
   }
   return match::prepare(fragment.path, std::move(*surface), context);

@@ -60,7 +60,13 @@ struct Fragment {
   std::vector<StageTime> stages;  ///< surface (of a cloud), coarse, facets; load where a file was read
 };
 
+/// The triangles that are matched: the scan's own, or laid through the points of a cloud.
+/// \param path  for messages
+/// \throws InputError  nothing can be laid through the points
+mesh::Mesh surface_of(const std::string& path, const mesh::Mesh& scan);
+
 /// \param scan  what load() gave
+/// \throws InputError  as surface_of()
 Fragment prepare(std::string path, mesh::Mesh scan, const Context& context);
 
 /// How good a joint is, and by what.

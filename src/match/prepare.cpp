@@ -12,16 +12,21 @@ constexpr std::size_t kCoarseFaces = 40000;
 
 }  // namespace
 
+mesh::Mesh surface_of(const std::string& path, const mesh::Mesh& scan) {
+  mesh::Mesh surface = scan.is_cloud() ? mesh::surface_of_cloud(scan) : scan;
+  if (surface.faces.empty()) {
+    throw InputError(path, "no surface could be laid through its points", "scan it more densely");
+  }
+  return surface;
+}
+
 Fragment prepare(std::string path, mesh::Mesh scan, const Context& context) {
   context.report("prepare " + path, 0.0);
   Fragment fragment;
   fragment.path = std::move(path);
   fragment.scan = std::move(scan);
   Stopwatch clock(fragment.stages);
-  fragment.surface = fragment.scan.is_cloud() ? mesh::surface_of_cloud(fragment.scan) : fragment.scan;
-  if (fragment.surface.faces.empty()) {
-    throw InputError(fragment.path, "no surface could be laid through its points", "scan it more densely");
-  }
+  fragment.surface = surface_of(fragment.path, fragment.scan);
   clock.lap("surface");
   fragment.coarse = fragment.surface.faces.size() > kCoarseFaces
                         ? mesh::simplify(fragment.surface, kCoarseFaces)
