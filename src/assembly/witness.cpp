@@ -91,7 +91,7 @@ double witness_odds(const match::Evidence& evidence) {
   const double over = evidence.shared_area + evidence.penetration_area;
   if (!(over > 0)) return 0.0;
   const double touching = evidence.contact_area / over;
-  const double patches = std::min(kMostPatches, evidence.patches * over / evidence.shared_area);
+  const double patches = std::min(kMostPatches, over / evidence.patch_area);
   const double contact = touching * std::log(kTouchTrue / kTouchFalse) +
                          (1.0 - touching) * std::log((1.0 - kTouchTrue) / (1.0 - kTouchFalse));
   const double shape = match::log_odds(match::strength(evidence)) - match::log_odds(0.0);

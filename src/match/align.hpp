@@ -4,9 +4,14 @@
 #include <memory>
 
 #include "core/rigid.hpp"
+#include "match/evidence.hpp"
 #include "match/match.hpp"
 
 namespace rejoin::match {
+
+namespace detail {
+class JointSides;
+}
 
 struct AlignOptions {
   double reach_start = 0;  ///< facing samples farther apart than this do not count at first, mesh units
@@ -19,34 +24,10 @@ struct AlignOptions {
   int half = -1;           ///< 0 or 1: every other of B's broken samples: the two share none; -1: all
 };
 
-/// What speaks for a joint and what against it, at one pose.  Areas in squared mesh units.
-struct Evidence {
-  double contact_area = 0;  ///< B's broken surface that faces A's within the tolerance
-  /// B's broken surface that lies over A's, touching or not (within four tolerances).
-  double shared_area = 0;
-  double patches = 0;     ///< the shared area in patches whose relief is independent
-  int core_samples = 0;   ///< of the shared surface, those that are not next to another facet
-  double gap_median = 0;  ///< over the shared area, mesh units, positive = apart
-  double gap_spread = 0;  ///< robust deviation (1.48 MAD) of the gaps, mesh units
-  double relief = 0;      ///< robust deviation of the shared surface from a quadric: what there is to explain
-  double information =
-      0;  ///< how much shape agrees: n/2 log((relief^2 + noise^2) / (gap_spread^2 + noise^2)), nats,
-          ///< n = independent patches of the shared area.  Flat on flat gives none.
-  double penetration = 0;  ///< mean depth of what lies inside the other body, mesh units; 0 if nothing does
-  double penetration_area = 0;  ///< surface of B that lies clearly inside A's body
-  /// Thin pieces: share of the walls at the seam that go on on the other side; 1 for solid ones or without walls.
-  double wall_share = 1;
-  double tolerance = 0;    ///< distance below which the surfaces touch, mesh units
-  glm::dvec3 normal{0.0};  ///< mean outward normal of A's shared surface, unit; 0 without any
-  glm::dvec3 centre{0.0};  ///< of the shared surface, relative to A's origin
-  glm::dvec3 along{0.0};   ///< its longest direction, unit; 0 without any
-};
-
 /// Two prepared fragments, indexed for alignment.  Poses are B -> A, both relative to their mesh's origin.
 /// Const members may be called from several threads.
 class Joint {
  public:
-  /// The fragments must outlive the object.
   Joint(const Fragment& a, const Fragment& b);
   ~Joint();
 
@@ -68,9 +49,8 @@ class Joint {
   double tolerance() const;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
-  std::unique_ptr<Impl> back_;  ///< the same two, A and B exchanged
+  std::unique_ptr<const detail::JointSides> sides_;
+  std::unique_ptr<const detail::JointSides> exchanged_;
 };
 
 }  // namespace rejoin::match

@@ -10,23 +10,11 @@
 namespace rejoin::match {
 namespace {
 
-constexpr double kLoose = 0.5;      // gap spread, in tolerances, that halves what a joint is worth
-constexpr double kWallsGoOn = 0.8;  // share of the walls that go on across a true seam, at least
-constexpr double kEven = 6.0;       // strength at which a joint is as likely as not
-constexpr double kSteady = 2.0;     // degrees between the poses of either half of the samples, at most
-constexpr double kSlope = 0.75;     // strength that multiplies the odds by e
+constexpr double kEven = 6.0;    // strength at which a joint is as likely as not
+constexpr double kSteady = 2.0;  // degrees between the poses of either half of the samples, at most
+constexpr double kSlope = 0.75;  // strength that multiplies the odds by e
 
 }  // namespace
-
-double strength(const Evidence& evidence) {
-  const double against = evidence.shared_area + evidence.penetration_area;
-  if (against <= 0 || evidence.tolerance <= 0) return 0.0;
-  const double touching = evidence.contact_area / against;
-  const double loose = evidence.gap_spread / (kLoose * evidence.tolerance);
-  const double walls = std::min(1.0, evidence.wall_share / kWallsGoOn);
-  return evidence.information * touching * touching * touching * touching * walls * walls /
-         (1.0 + loose * loose * loose * loose);
-}
 
 double log_odds(double strength) {
   return (strength - kEven) / kSlope;

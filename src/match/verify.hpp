@@ -8,9 +8,6 @@
 
 namespace rejoin::match {
 
-/// What the evidence is worth: information, less what the joint leaves open or overlaps.  Comparable across pairs.
-double strength(const Evidence& evidence);
-
 constexpr double kSure = 0.99;     ///< score from which the verdict is "join"
 constexpr double kPossible = 0.3;  ///< and from which it is "unsure"
 

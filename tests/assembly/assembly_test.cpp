@@ -244,7 +244,7 @@ TEST(Witness, CloseContactSpeaksForAPoseAndLooseContactAgainst) {
   evidence.tolerance = 1.0;
   EXPECT_EQ(witness_odds(evidence), 0.0) << "nothing touches";
   evidence.shared_area = 10.0;
-  evidence.patches = 4.0;
+  evidence.patch_area = 2.5;
   evidence.contact_area = 9.5;
   const double close = witness_odds(evidence);
   EXPECT_GT(close, 1.0) << "flat surfaces without any shape to agree on";

@@ -241,8 +241,7 @@ TEST(Joint, FlatSidesWithWornRimsGiveNoInformation) {
     }
     return prepare(below ? "below" : "above", half, Context{});
   };
-  const Joint joint(worn(true), worn(false));
-  const Evidence evidence = joint.agreed_evidence(Rigid{});
+  const Evidence evidence = Joint(worn(true), worn(false)).agreed_evidence(Rigid{});
   EXPECT_GT(evidence.core_samples, 200);
   EXPECT_LT(strength(evidence), 1.0);
 }

@@ -1,0 +1,95 @@
+#include "match/detail/joint_sides.hpp"
+
+#include "mesh/neighbours.hpp"
+
+namespace rejoin::match::detail {
+namespace {
+
+constexpr double kWallClear = 0.25;     // wall thicknesses next to the seam that are left out: worn edges lie
+constexpr double kTableCell = 2.0;      // spacings: side of the cells of tables of near points
+constexpr double kTableReach = 20.0;    // tolerances: how far a quick alignment looks
+constexpr double kWallTableCell = 3.0;  // the same for walls, which are smooth
+
+Side side_of(const Fragment& fragment, double edge_radius) {
+  const auto& s = fragment.facets;
+  Side side;
+  side.sample_area = s.sample_area;
+  side.body.points = s.samples.points;
+  side.body.normals = s.normals;
+  side.body_index = std::make_unique<mesh::PointIndex>(side.body.points);
+  const mesh::Neighbours neighbours(side.body.points, static_cast<float>(edge_radius));
+  side.broken_of_facet.resize(s.facets.size());
+  std::vector<std::uint32_t> near;
+  for (std::size_t i = 0; i < s.samples.size(); ++i) {
+    if (s.surface[i] != mesh::Surface::Fracture) continue;
+    const auto number = static_cast<std::uint32_t>(side.broken.points.size());
+    side.all_broken.push_back(number);
+    if (s.facet_of_sample[i] >= 0) {
+      side.broken_of_facet[static_cast<std::size_t>(s.facet_of_sample[i])].push_back(number);
+    }
+    side.broken.points.push_back(s.samples.points[i]);
+    side.broken.normals.push_back(s.normals[i]);
+    neighbours.of(s.samples.points[i], near);
+    side.broken.edge.push_back(std::any_of(near.begin(), near.end(), [&](std::uint32_t k) {
+      return s.facet_of_sample[k] != s.facet_of_sample[i];
+    }));
+  }
+  side.broken_index = std::make_unique<mesh::PointIndex>(side.broken.points);
+  if (s.wall_thickness > 0) {
+    for (std::size_t i = 0; i < s.samples.size(); ++i) {
+      if (s.surface[i] != mesh::Surface::Original) continue;
+      const auto seam = side.broken_index->nearest_within(s.samples.points[i],
+                                                          static_cast<float>(kWallNear * s.wall_thickness));
+      if (!seam || seam->second < kWallClear * s.wall_thickness) continue;
+      side.all_walls.push_back(static_cast<std::uint32_t>(side.walls.points.size()));
+      side.walls.points.push_back(s.samples.points[i]);
+      side.walls.normals.push_back(s.normals[i]);
+    }
+  }
+  side.wall_index = std::make_unique<mesh::PointIndex>(side.walls.points);
+  return side;
+}
+
+JointLengths lengths_of(const Fragment& a, const Fragment& b) {
+  const double ta = a.facets.wall_thickness;
+  const double tb = b.facets.wall_thickness;
+  const double scan = std::max(a.resolution, b.resolution);
+  JointLengths l;
+  l.thickness = ta > 0 && tb > 0 ? std::min(ta, tb) : 0.0;
+  l.spacing = std::max(a.facets.samples.spacing, b.facets.samples.spacing);
+  l.tolerance = std::max(l.thickness > 0 ? 0.05 * l.thickness : 0.15 * l.spacing, 0.3 * scan);
+  l.noise = 0.05 * scan;
+  l.patch = std::max({0.5 * l.thickness, 2.5 * l.spacing, 2.5 * scan});
+  return l;
+}
+
+}  // namespace
+
+JointSides::JointSides(const Fragment& a, const Fragment& b) : lengths_(lengths_of(a, b)) {
+  const double edge = std::max(0.2 * lengths_.thickness, 1.2 * lengths_.spacing);
+  a_ = std::make_shared<const Side>(side_of(a, edge));
+  b_ = std::make_shared<const Side>(side_of(b, edge));
+}
+
+std::unique_ptr<const JointSides> JointSides::exchanged() const {
+  return std::unique_ptr<const JointSides>(new JointSides(b_, a_, lengths_));
+}
+
+const JointSides::Tables& JointSides::ready_tables() const {
+  std::call_once(made_tables_, [this] {
+    const auto table = [](const Cloud& cloud, double cell, double reach) {
+      return mesh::NearTable(cloud.points, static_cast<float>(cell), static_cast<float>(reach));
+    };
+    const double near = kWallNear * lengths_.thickness;
+    tables_.broken =
+        table(a_->broken, kTableCell * lengths_.spacing, std::max(kTableReach * lengths_.tolerance, near));
+    tables_.body = table(a_->body, kTableCell * lengths_.spacing, lengths_.deepest());
+    if (lengths_.thickness > 0) {
+      tables_.walls =
+          table(a_->walls, kWallTableCell * lengths_.spacing, near + 0.5 * kTableReach * lengths_.tolerance);
+    }
+  });
+  return tables_;
+}
+
+}  // namespace rejoin::match::detail

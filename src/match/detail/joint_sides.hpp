@@ -1,0 +1,143 @@
+/// Two fragments' samples, indexed to look from one to the other.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "match/match.hpp"
+#include "mesh/near_table.hpp"
+#include "mesh/point_index.hpp"
+
+namespace rejoin::match::detail {
+
+inline constexpr float kFacing = -0.5F;    ///< facing normals differ from opposite by at most 60 degrees
+inline constexpr double kWallNear = 1.2;   ///< wall thicknesses from the seam in which walls are compared
+inline constexpr float kWallAlike = 0.7F;  ///< wall normals across a seam differ by at most 45 degrees
+
+/// Samples of one class of one fragment.
+struct Cloud {
+  std::vector<glm::vec3> points;
+  std::vector<glm::vec3> normals;
+  std::vector<bool> edge;  ///< next to another facet: worn, of no use for the relief
+};
+
+/// Looks for the point of a cloud that is nearest to another.
+class Finder {
+ public:
+  /// \param table  for nearly the nearest point, sooner; nullptr: exactly
+  Finder(const mesh::PointIndex& index, const mesh::NearTable* table) : index_(&index), table_(table) {}
+
+  std::optional<std::pair<std::uint32_t, float>> within(const glm::vec3& point, double radius) const {
+    const auto r = static_cast<float>(radius);
+    return table_ != nullptr ? table_->nearest_within(point, r) : index_->nearest_within(point, r);
+  }
+
+ private:
+  const mesh::PointIndex* index_;
+  const mesh::NearTable* table_;
+};
+
+/// One fragment.
+struct Side {
+  Cloud broken;
+  Cloud walls;  ///< thin pieces: original surface near the fracture
+  Cloud body;   ///< every sample
+  std::unique_ptr<mesh::PointIndex> broken_index;
+  std::unique_ptr<mesh::PointIndex> wall_index;
+  std::unique_ptr<mesh::PointIndex> body_index;
+  std::vector<std::uint32_t> all_walls;                     ///< 0, 1, ... into `walls`
+  std::vector<std::uint32_t> all_broken;                    ///< 0, 1, ... into `broken`
+  std::vector<std::vector<std::uint32_t>> broken_of_facet;  ///< into `broken`
+  double sample_area = 0;
+
+  /// The broken samples of one facet; of all for -1.
+  const std::vector<std::uint32_t>& broken_of(int facet) const {
+    return facet < 0 ? all_broken : broken_of_facet[static_cast<std::size_t>(facet)];
+  }
+};
+
+/// What both fragments' scans allow, mesh units.
+struct JointLengths {
+  double thickness = 0;  ///< of the thinner wall; 0 if not both are thin
+  double spacing = 0;    ///< of the sparser samples
+  double tolerance = 0;  ///< distance below which surfaces touch
+  double noise = 0;      ///< of the scans
+  double patch = 0;      ///< side of a patch of surface whose relief is independent of the next one's
+
+  /// How deep a body's surface can lie in the other one's.
+  double deepest() const { return thickness > 0 ? 0.6 * thickness : 8.0 * spacing; }
+};
+
+/// Seen from A: B's points are looked for among A's.  Const members may be called from several threads.
+class JointSides {
+ public:
+  JointSides(const Fragment& a, const Fragment& b);
+
+  /// A and B exchanged; shares the samples.
+  std::unique_ptr<const JointSides> exchanged() const;
+
+  const Side& a() const { return *a_; }
+  const Side& b() const { return *b_; }
+  const JointLengths& lengths() const { return lengths_; }
+
+  /// Look for points of A: broken surface, walls, all.
+  /// \param quick  in tables, made when first asked: nearly the nearest
+  Finder broken_finder(bool quick) const {
+    return {*a_->broken_index, quick ? &ready_tables().broken : nullptr};
+  }
+  Finder wall_finder(bool quick) const { return {*a_->wall_index, quick ? &ready_tables().walls : nullptr}; }
+  Finder body_finder(bool quick) const { return {*a_->body_index, quick ? &ready_tables().body : nullptr}; }
+
+ private:
+  /// Of A.
+  struct Tables {
+    mesh::NearTable broken;
+    mesh::NearTable walls;
+    mesh::NearTable body;
+  };
+
+  JointSides(std::shared_ptr<const Side> a, std::shared_ptr<const Side> b, const JointLengths& lengths)
+      : lengths_(lengths), a_(std::move(a)), b_(std::move(b)) {}
+  const Tables& ready_tables() const;
+
+  JointLengths lengths_;
+  std::shared_ptr<const Side> a_;
+  std::shared_ptr<const Side> b_;
+  mutable Tables tables_;
+  mutable std::once_flag made_tables_;
+};
+
+/// Step that visits at most `most` of `count` items; most <= 0: all.
+inline std::size_t stride(std::size_t count, int most) {
+  return most > 0 ? std::max<std::size_t>(1, count / static_cast<std::size_t>(most)) : 1;
+}
+
+/// Tukey's weight of a residual: 1 at 0, nothing beyond the scale.
+inline double tukey(double residual, double scale) {
+  const double r = residual / scale;
+  if (std::abs(r) >= 1.0) return 0.0;
+  const double k = 1.0 - r * r;
+  return k * k;
+}
+
+/// A pose in single precision, for samples.
+class Move {
+ public:
+  explicit Move(const Rigid& pose) : rotation_(pose.rotation), shift_(pose.translation) {}
+  glm::vec3 operator()(const glm::vec3& point) const { return rotation_ * point + shift_; }
+  glm::vec3 direction(const glm::vec3& d) const { return rotation_ * d; }
+
+ private:
+  glm::mat3 rotation_;
+  glm::vec3 shift_;
+};
+
+}  // namespace rejoin::match::detail

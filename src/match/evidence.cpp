@@ -1,0 +1,237 @@
+#include "match/evidence.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "core/median.hpp"
+#include "match/align.hpp"
+#include "match/detail/joint_sides.hpp"
+
+namespace rejoin::match {
+namespace {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using detail::Finder;
+using detail::kFacing;
+using detail::kWallAlike;
+using detail::kWallNear;
+using detail::stride;
+using detail::tukey;
+
+constexpr int kBodySamples = 4000;       // of B that are asked whether they lie inside A
+constexpr double kWallStep = 0.3;        // wall thicknesses by which walls that go on may be offset
+constexpr int kQuadricRounds = 12;       // at most
+constexpr double kQuadricSteady = 0.02;  // share by which the deviation may still change in the end
+constexpr double kQuadricReach = 7.0;    // robust deviations beyond which a height does not bend the quadric
+constexpr double kLoose = 0.5;           // gap spread, in tolerances, that halves what a joint is worth
+constexpr double kWallsGoOn = 0.8;       // share of the walls that go on across a true seam, at least
+
+/// 1.48 times the median absolute deviation: the standard deviation of what is not outliers.
+double robust_deviation(std::vector<double> values) {
+  const double middle = median(values);
+  for (double& v : values) v = std::abs(v - middle);
+  return 1.48 * median(values);
+}
+
+/// Heights of points along `normal` above the quadric that fits them best; with more rounds, that fits most of them best.
+std::vector<double> heights_above_quadric(const std::vector<glm::dvec3>& points, const glm::dvec3& normal,
+                                          int rounds) {
+  const glm::dmat3 frame = frame_of(normal);
+  glm::dvec3 centre(0.0);
+  for (const auto& p : points) centre += p / static_cast<double>(points.size());
+  double size = 0.0;
+  for (const auto& p : points) size = std::max(size, glm::distance(p, centre));
+  std::vector<Vector6> rows;
+  std::vector<double> heights;
+  for (const auto& p : points) {
+    const glm::dvec3 q = (p - centre) * frame / size;
+    Vector6 row;
+    row << 1.0, q.x, q.y, q.x * q.x, q.x * q.y, q.y * q.y;
+    rows.push_back(row);
+    heights.push_back(q.z);
+  }
+  std::vector<double> rest = heights;
+  double reach = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < rounds; ++round) {
+    Matrix6 matrix = 1e-9 * static_cast<double>(points.size()) * Matrix6::Identity();
+    Vector6 right = Vector6::Zero();
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const double weight = tukey(rest[i], reach);
+      matrix += weight * rows[i] * rows[i].transpose();
+      right += weight * heights[i] * rows[i];
+    }
+    const Vector6 fit = matrix.ldlt().solve(right);
+    for (std::size_t i = 0; i < rows.size(); ++i) rest[i] = heights[i] - fit.dot(rows[i]);
+    const double next = kQuadricReach * std::max(1e-12, robust_deviation(rest));
+    if (std::abs(next - reach) < kQuadricSteady * next) break;
+    reach = next;
+  }
+  for (double& height : rest) height *= size;
+  return rest;
+}
+
+/// Mean of points, and the direction in which they spread most.
+std::pair<glm::dvec3, glm::dvec3> middle_and_axis(const std::vector<glm::dvec3>& points) {
+  glm::dvec3 centre(0.0);
+  for (const auto& p : points) centre += p / static_cast<double>(points.size());
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const auto& p : points) {
+    const Eigen::Vector3d q(p.x - centre.x, p.y - centre.y, p.z - centre.z);
+    spread += q * q.transpose();
+  }
+  const Eigen::Vector3d axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
+  return {centre, {axis.x(), axis.y(), axis.z()}};
+}
+
+/// Looks from B's samples to A.
+class Look {
+ public:
+  Look(const detail::JointSides& sides, const Rigid& pose, int most_samples, bool quick)
+      : sides_(sides),
+        a_(sides.a()),
+        b_(sides.b()),
+        lengths_(sides.lengths()),
+        move_(pose),
+        most_samples_(most_samples),
+        quick_(quick) {}
+
+  Evidence evidence(int facet_b) const {
+    Evidence e;
+    e.tolerance = lengths_.tolerance;
+    look_at_contact(b_.broken_of(facet_b), e);
+    look_for_penetration(e);
+    if (lengths_.thickness > 0) look_at_walls(e);
+    return e;
+  }
+
+ private:
+  void look_at_contact(const std::vector<std::uint32_t>& from, Evidence& e) const {
+    std::vector<double> gaps;
+    std::vector<double> core_gaps;
+    std::vector<glm::dvec3> core;
+    glm::dvec3 normal(0.0);
+    double touching = 0.0;
+    const std::size_t step = stride(from.size(), most_samples_);
+    const double share = static_cast<double>(step) * b_.sample_area;
+    const auto farthest = static_cast<float>(std::hypot(lengths_.spacing, 4.0 * lengths_.tolerance));
+    for (std::size_t k = 0; k < from.size(); k += step) {
+      const std::uint32_t i = from[k];
+      const glm::vec3 p = move_(b_.broken.points[i]);
+      const auto hit = a_.broken_index->nearest_within(p, farthest);
+      if (!hit) continue;
+      const glm::vec3 n = a_.broken.normals[hit->first];
+      const glm::vec3 offset = p - a_.broken.points[hit->first];
+      const auto gap = static_cast<double>(glm::dot(offset, n));
+      const double aside =
+          std::sqrt(std::max(0.0, static_cast<double>(glm::dot(offset, offset)) - gap * gap));
+      if (aside > lengths_.spacing || std::abs(gap) > 4.0 * lengths_.tolerance) continue;
+      if (glm::dot(n, move_.direction(b_.broken.normals[i])) > kFacing) continue;
+      gaps.push_back(gap);
+      normal += glm::dvec3(n);
+      if (!b_.broken.edge[i] && !a_.broken.edge[hit->first]) {
+        core.emplace_back(p);
+        core_gaps.push_back(gap);
+      }
+      if (std::abs(gap) > lengths_.tolerance) continue;
+      touching += 1.0;
+    }
+    e.contact_area = touching * share;
+    e.shared_area = static_cast<double>(gaps.size()) * share;
+    e.patch_area = lengths_.patch * lengths_.patch;
+    e.gap_median = median(gaps);
+    if (glm::length(normal) > 0) e.normal = glm::normalize(normal);
+    e.core_samples = static_cast<int>(core.size());
+    if (core.size() < 12 || !(glm::length(normal) > 0)) return;
+    const int rounds =
+        most_samples_ > 0 ? 1 : kQuadricRounds;  // few samples have no bulk to tell from the rest
+    e.gap_spread = robust_deviation(core_gaps);
+    e.relief = robust_deviation(heights_above_quadric(core, glm::normalize(normal), rounds));
+    std::tie(e.centre, e.along) = middle_and_axis(core);
+    const double patches = static_cast<double>(core.size()) * share / e.patch_area;
+    e.information = 0.5 * patches *
+                    std::log((e.relief * e.relief + lengths_.noise * lengths_.noise) /
+                             (e.gap_spread * e.gap_spread + lengths_.noise * lengths_.noise));
+  }
+
+  void look_for_penetration(Evidence& e) const {
+    const Finder finder = sides_.body_finder(quick_);
+    const int most = most_samples_ > 0 ? std::min(most_samples_, kBodySamples) : kBodySamples;
+    const std::size_t step = stride(b_.body.points.size(), most);
+    double inside = 0.0;
+    double depth = 0.0;
+    for (std::size_t i = 0; i < b_.body.points.size(); i += step) {
+      const glm::vec3 p = move_(b_.body.points[i]);
+      const auto hit = finder.within(p, lengths_.deepest());
+      if (!hit) continue;
+      const glm::vec3 offset = p - a_.body.points[hit->first];
+      const auto gap = static_cast<double>(glm::dot(offset, a_.body.normals[hit->first]));
+      if (gap > -3.0 * lengths_.tolerance || -gap < 0.7 * static_cast<double>(hit->second)) continue;
+      inside += 1.0;
+      depth -= gap;
+    }
+    e.penetration_area = inside * static_cast<double>(step) * b_.sample_area;
+    e.penetration = inside > 0 ? depth / inside : 0.0;
+  }
+
+  void look_at_walls(Evidence& e) const {
+    const double near = kWallNear * lengths_.thickness;
+    const Finder near_broken = sides_.broken_finder(quick_);
+    const Finder finder = sides_.wall_finder(quick_);
+    double found = 0.0;
+    double all = 0.0;
+    const std::size_t step = stride(b_.walls.points.size(), most_samples_);
+    for (std::size_t i = 0; i < b_.walls.points.size(); i += step) {
+      const glm::vec3 p = move_(b_.walls.points[i]);
+      if (!near_broken.within(p, near)) continue;
+      all += 1.0;
+      const auto hit = finder.within(p, 2.0 * near);
+      if (!hit) continue;
+      const glm::dvec3 n_b(move_.direction(b_.walls.normals[i]));
+      const glm::dvec3 n_a(a_.walls.normals[hit->first]);
+      if (glm::dot(n_a, n_b) < static_cast<double>(kWallAlike)) continue;
+      const double offset = glm::dot(glm::dvec3(p - a_.walls.points[hit->first]), glm::normalize(n_a + n_b));
+      if (std::abs(offset) < kWallStep * lengths_.thickness) found += 1.0;
+    }
+    if (all > 0) e.wall_share = found / all;
+  }
+
+  const detail::JointSides& sides_;
+  const detail::Side& a_;
+  const detail::Side& b_;
+  const detail::JointLengths& lengths_;
+  detail::Move move_;
+  int most_samples_;
+  bool quick_;
+};
+
+}  // namespace
+
+double strength(const Evidence& evidence) {
+  const double against = evidence.shared_area + evidence.penetration_area;
+  if (against <= 0 || evidence.tolerance <= 0) return 0.0;
+  const double touching = evidence.contact_area / against;
+  const double loose = evidence.gap_spread / (kLoose * evidence.tolerance);
+  const double walls = std::min(1.0, evidence.wall_share / kWallsGoOn);
+  return evidence.information * touching * touching * touching * touching * walls * walls /
+         (1.0 + loose * loose * loose * loose);
+}
+
+Evidence Joint::evidence(const Rigid& pose, int most_samples, int facet_b, bool quick) const {
+  return Look(*sides_, pose, most_samples, quick).evidence(facet_b);
+}
+
+Evidence Joint::agreed_evidence(const Rigid& pose) const {
+  Evidence agreed = evidence(pose, 0);
+  const double there = strength(agreed);
+  const double back = strength(Look(*exchanged_, inverse(pose), 0, false).evidence(-1));
+  if (there > 0.0) agreed.information *= std::sqrt(std::max(0.0, back) / there);
+  return agreed;
+}
+
+}  // namespace rejoin::match

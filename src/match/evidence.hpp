@@ -1,0 +1,35 @@
+/// What a joint looks like at one pose, and what that is worth.
+#pragma once
+
+#include <glm/glm.hpp>
+
+namespace rejoin::match {
+
+/// What speaks for a joint and what against it, at one pose.  Areas in squared mesh units.
+struct Evidence {
+  double contact_area = 0;  ///< B's broken surface that faces A's within the tolerance
+  /// B's broken surface that lies over A's, touching or not (within four tolerances).
+  double shared_area = 0;
+  double patch_area = 0;  ///< of a patch of surface whose relief is independent of the next one's
+  int core_samples = 0;   ///< of the shared surface, those that are not next to another facet
+  double gap_median = 0;  ///< over the shared area, mesh units, positive = apart
+  double gap_spread = 0;  ///< robust deviation (1.48 MAD) of the gaps, mesh units
+  double relief = 0;      ///< robust deviation of the shared surface from a quadric: what there is to explain
+  double information =
+      0;  ///< how much shape agrees: n/2 log((relief^2 + noise^2) / (gap_spread^2 + noise^2)), nats,
+          ///< n = independent patches of the shared area.  Flat on flat gives none.
+  double penetration = 0;  ///< mean depth of what lies inside the other body, mesh units; 0 if nothing does
+  double penetration_area = 0;  ///< surface of B that lies clearly inside A's body
+  /// Thin pieces: share of the walls at the seam that go on on the other side; 1 for solid ones or without walls.
+  double wall_share = 1;
+  double tolerance = 0;    ///< distance below which the surfaces touch, mesh units
+  glm::dvec3 normal{0.0};  ///< mean outward normal of A's shared surface, unit; 0 without any
+  glm::dvec3 centre{0.0};  ///< of the shared surface, relative to A's origin
+  glm::dvec3 along{0.0};   ///< its longest direction, unit; 0 without any
+};
+
+/// What the evidence is worth: information, less what the joint leaves open or overlaps.  Comparable across pairs.
+/// \source docs/scoring.md
+double strength(const Evidence& evidence);
+
+}  // namespace rejoin::match
