@@ -8,6 +8,7 @@
 #include <map>
 
 #include "core/parallel.hpp"
+#include "core/tukey.hpp"
 
 namespace rejoin::assembly {
 namespace {
@@ -47,11 +48,6 @@ Vector6 row_of(const glm::dvec3& arm, const glm::dvec3& direction) {
   Vector6 row;
   row << turn.x, turn.y, turn.z, direction.x, direction.y, direction.z;
   return row;
-}
-
-double tukey(double residual, double reach) {
-  const double u = residual / reach;
-  return std::abs(u) < 1.0 ? (1.0 - u * u) * (1.0 - u * u) : 0.0;
 }
 
 /// A motion is a turn about `centre` (near the group) and a shift.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/tukey.hpp"
 #include "match/detail/joint_sides.hpp"
 
 namespace rejoin::match {
@@ -72,7 +73,7 @@ void add_broken(System& system, const detail::JointSides& sides, const Rigid& po
     const glm::vec3 n = a.normals[hit->first];
     if (glm::dot(n, move.direction(b.normals[i])) > detail::kFacing) continue;
     const auto offset = static_cast<double>(glm::dot(p - a.points[hit->first], n));
-    system.add(glm::dvec3(p) - pivot, glm::dvec3(n), offset, detail::tukey(offset, reach));
+    system.add(glm::dvec3(p) - pivot, glm::dvec3(n), offset, tukey(offset, reach));
   }
 }
 
@@ -93,7 +94,7 @@ void add_walls(System& system, const detail::JointSides& sides, const Rigid& pos
     if (glm::dot(n_a, n_b) < detail::kWallAlike) continue;
     const glm::dvec3 n = glm::normalize(glm::dvec3(n_a + n_b));
     const double offset = glm::dot(glm::dvec3(p - a.points[hit->first]), n);
-    system.add(glm::dvec3(p) - pivot, n, offset, kWallWeight * detail::tukey(offset, reach));
+    system.add(glm::dvec3(p) - pivot, n, offset, kWallWeight * tukey(offset, reach));
   }
 }
 

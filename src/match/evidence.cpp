@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/median.hpp"
+#include "core/tukey.hpp"
 #include "match/align.hpp"
 #include "match/detail/joint_sides.hpp"
 
@@ -22,7 +23,6 @@ using detail::kFacing;
 using detail::kWallAlike;
 using detail::kWallNear;
 using detail::stride;
-using detail::tukey;
 
 constexpr int kBodySamples = 4000;       // of B that are asked whether they lie inside A
 constexpr double kWallStep = 0.3;        // wall thicknesses by which walls that go on may be offset

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -118,14 +117,6 @@ class JointSides {
 /// Step that visits at most `most` of `count` items; most <= 0: all.
 inline std::size_t stride(std::size_t count, int most) {
   return most > 0 ? std::max<std::size_t>(1, count / static_cast<std::size_t>(most)) : 1;
-}
-
-/// Tukey's weight of a residual: 1 at 0, nothing beyond the scale.
-inline double tukey(double residual, double scale) {
-  const double r = residual / scale;
-  if (std::abs(r) >= 1.0) return 0.0;
-  const double k = 1.0 - r * r;
-  return k * k;
 }
 
 /// A pose in single precision, for samples.
