@@ -6,20 +6,16 @@
 
 #include "core/random.hpp"
 #include "mesh/point_index.hpp"
+#include "random_points.hpp"
 
 namespace rejoin::mesh {
 namespace {
 
+using test::random_point;
+
 constexpr float kCell = 0.05F;
 constexpr float kReach = 0.2F;
 const float kDiagonal = std::sqrt(3.0F) * kCell;
-
-glm::vec3 random_point(Random& random, float size) {
-  const auto number = [&] { return size * static_cast<float>(random.uniform() - 0.5); };
-  const float x = number();
-  const float y = number();
-  return {x, y, number()};
-}
 
 /// On a ball, about a cell apart.
 std::vector<glm::vec3> ball() {

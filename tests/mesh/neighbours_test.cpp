@@ -4,17 +4,14 @@
 
 #include "core/random.hpp"
 #include "mesh/point_index.hpp"
+#include "random_points.hpp"
 
 namespace rejoin::mesh {
 namespace {
 
-/// In a box of the given size around the origin; a tenth as thick.
-glm::vec3 random_point(Random& random, float size) {
-  const auto number = [&] { return size * static_cast<float>(random.uniform() - 0.5); };
-  const float x = number();
-  const float y = number();
-  return {x, y, 0.1F * number()};
-}
+using test::random_point;
+
+constexpr float kThin = 0.1F;
 
 void expect_answers_of_point_index(const std::vector<glm::vec3>& points, float radius, float asked_size) {
   Random random(3);
@@ -24,7 +21,7 @@ void expect_answers_of_point_index(const std::vector<glm::vec3>& points, float r
   std::vector<std::uint32_t> found;
   std::size_t all = 0;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    for (const glm::vec3& asked : {points[k], random_point(random, asked_size)}) {
+    for (const glm::vec3& asked : {points[k], random_point(random, asked_size, kThin)}) {
       index.within(asked, radius, expected);
       neighbours.of(asked, found);
       ASSERT_EQ(found, expected) << "point " << k << ", radius " << radius;
@@ -37,7 +34,7 @@ void expect_answers_of_point_index(const std::vector<glm::vec3>& points, float r
 TEST(Neighbours, AreThoseOfThePointIndexInAndAroundTheBox) {
   Random random(8);
   std::vector<glm::vec3> points(2000);
-  for (glm::vec3& point : points) point = random_point(random, 1.0F) + glm::vec3(100.0F, 0.0F, -40.0F);
+  for (glm::vec3& point : points) point = random_point(random, 1.0F, kThin) + glm::vec3(100.0F, 0.0F, -40.0F);
   expect_answers_of_point_index(points, 0.03F, 1.2F);
   expect_answers_of_point_index(points, 0.4F, 3.0F);
 }
@@ -45,7 +42,7 @@ TEST(Neighbours, AreThoseOfThePointIndexInAndAroundTheBox) {
 TEST(Neighbours, AreRightWhereFewPointsSpreadFar) {
   Random random(9);
   std::vector<glm::vec3> points(500);
-  for (glm::vec3& point : points) point = random_point(random, 1.0F);
+  for (glm::vec3& point : points) point = random_point(random, 1.0F, kThin);
   points.emplace_back(1000.0F, -500.0F, 0.0F);
   expect_answers_of_point_index(points, 0.1F, 1.0F);
 }

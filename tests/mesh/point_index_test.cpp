@@ -6,16 +6,14 @@
 #include <vector>
 
 #include "core/random.hpp"
+#include "random_points.hpp"
 
 namespace rejoin::mesh {
 namespace {
 
-glm::vec3 random_point(Random& random, float size) {
-  const auto number = [&] { return size * static_cast<float>(random.uniform() - 0.5); };
-  const float x = number();
-  const float y = number();
-  return {x, y, 0.1F * number()};
-}
+using test::random_point;
+
+constexpr float kThin = 0.1F;
 
 /// By looking at every point.
 std::optional<float> least_distance(const std::vector<glm::vec3>& points, const glm::vec3& to, float radius) {
@@ -30,12 +28,12 @@ std::optional<float> least_distance(const std::vector<glm::vec3>& points, const 
 TEST(PointIndex, NearestWithinIsThatOfAllPointsOrNone) {
   Random random(7);
   std::vector<glm::vec3> points(3000);
-  for (glm::vec3& point : points) point = random_point(random, 1.0F);
+  for (glm::vec3& point : points) point = random_point(random, 1.0F, kThin);
   const PointIndex index(points);
   int hits = 0;
   constexpr int kAsked = 2000;
   for (int k = 0; k < kAsked; ++k) {
-    const glm::vec3 asked = random_point(random, 1.5F);
+    const glm::vec3 asked = random_point(random, 1.5F, kThin);
     const auto radius = static_cast<float>(0.1 * random.uniform());
     const auto least = least_distance(points, asked, radius);
     const auto found = index.nearest_within(asked, radius);
