@@ -246,7 +246,7 @@ TEST(Joint, FlatSidesWithWornRimsGiveNoInformation) {
   EXPECT_LT(strength(evidence), 1.0);
 }
 
-TEST(Joint, ShapeThatOneSideHasAloneSaysNothing) {
+TEST(Joint, AgreedStrengthIsTheGeometricMeanOfThatOfBothSides) {
   const Pair pair = make_pair(12);
   const Joint joint(pair.a, pair.b);
   const Joint exchanged(pair.b, pair.a);
@@ -258,7 +258,9 @@ TEST(Joint, ShapeThatOneSideHasAloneSaysNothing) {
     EXPECT_NEAR(agreed, std::sqrt(there * back), 1e-9 * agreed);
     EXPECT_NEAR(agreed, strength(exchanged.agreed_evidence(inverse(pose))), 1e-9 * agreed);
   }
-  // A rough break on a plane: B's samples have shape, A's have none.
+}
+
+TEST(Joint, RoughBreakOnAPlaneSaysNothing) {
   mesh::Mesh plain = testing::half_block(true, 48);
   for (auto& v : plain.vertices) {
     if (v.z > static_cast<float>(-testing::kHalfZ)) v.z = 0.0F;
