@@ -19,22 +19,24 @@ glm::dvec3 face_cross(const Mesh& mesh, const glm::uvec3& face) {
   return glm::cross(glm::dvec3(mesh.vertices[face.y]) - a, glm::dvec3(mesh.vertices[face.z]) - a);
 }
 
+constexpr std::size_t kDirections = 256;
+constexpr std::size_t kTogether = 16;  // directions that go through the vertices at once, in vectors
+static_assert(kDirections % kTogether == 0);
+
 /// Directions spread over a half sphere (golden spiral) so that no direction is further than 7 degrees from
 /// one of them or its opposite.
 std::vector<glm::vec3> half_sphere_directions() {
-  constexpr int kCount = 256;
   std::vector<glm::vec3> directions;
-  directions.reserve(kCount);
+  directions.reserve(kDirections);
   const double turn = std::numbers::pi * (3.0 - std::sqrt(5.0));
-  for (int i = 0; i < kCount; ++i) {
-    const double z = (i + 0.5) / kCount;
+  for (std::size_t k = 0; k < kDirections; ++k) {
+    const auto i = static_cast<double>(k);
+    const double z = (i + 0.5) / static_cast<double>(kDirections);
     const double r = std::sqrt(1.0 - z * z);
     directions.emplace_back(r * std::cos(turn * i), r * std::sin(turn * i), z);
   }
   return directions;
 }
-
-constexpr std::size_t kTogether = 16;  // directions that go through the vertices at once, in vectors
 
 /// Of each direction the index of the first vertex that lies furthest back, then of the one furthest along.
 void extremes(const std::vector<glm::vec3>& vertices, const glm::vec3* directions, std::uint32_t* ends) {
@@ -85,13 +87,17 @@ double cloud_spacing(const Mesh& mesh) {
 
 }  // namespace
 
-Box bounds(const Mesh& mesh) {
-  Box box{mesh.vertices.front(), mesh.vertices.front()};
-  for (const glm::vec3& vertex : mesh.vertices) {
-    box.low = glm::min(box.low, vertex);
-    box.high = glm::max(box.high, vertex);
+Box bounds(std::span<const glm::vec3> points) {
+  Box box{points.front(), points.front()};
+  for (const glm::vec3& point : points) {
+    box.low = glm::min(box.low, point);
+    box.high = glm::max(box.high, point);
   }
   return box;
+}
+
+Box bounds(const Mesh& mesh) {
+  return bounds(mesh.vertices);
 }
 
 glm::dvec3 centroid(const Mesh& mesh) {

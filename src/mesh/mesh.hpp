@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 namespace rejoin::mesh {
@@ -27,7 +28,9 @@ struct Box {
   glm::vec3 high{0.0F};
 };
 
-/// Box of all vertices.  \pre the mesh has a vertex
+/// Box of points.  \pre there is one
+Box bounds(std::span<const glm::vec3> points);
+/// Box of all vertices.  \pre the mesh has one
 Box bounds(const Mesh& mesh);
 
 /// Area-weighted centroid of the surface (of the points, for a cloud), relative to mesh.origin.

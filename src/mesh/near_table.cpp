@@ -1,9 +1,10 @@
 #include "mesh/near_table.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+
+#include "mesh/mesh.hpp"
 
 namespace rejoin::mesh {
 namespace {
@@ -83,17 +84,12 @@ class NearTable::Spread {
 NearTable::NearTable(std::span<const glm::vec3> points, float cell, float reach)
     : points_(points.begin(), points.end()) {
   if (points.empty()) return;
-  glm::vec3 high = points_.front();
-  low_ = high;
-  for (const glm::vec3& p : points_) {
-    low_ = glm::min(low_, p);
-    high = glm::max(high, p);
-  }
-  const glm::vec3 size = high - low_ + 2.0F * reach;
+  const Box box = bounds(points_);
+  const glm::vec3 size = box.high - box.low + 2.0F * reach;
   cell = std::max(cell, std::max({size.x, size.y, size.z}) / kMostCells);
   const float farthest =
       reach + std::sqrt(0.75F) * cell;  // of a middle, where a point of its cell is in reach
-  low_ -= reach + kRim * cell;
+  low_ = box.low - (reach + kRim * cell);
   per_unit_ = 1.0F / cell;
   bricks_ = (glm::uvec3(size * per_unit_ + 2.0F * kRim) >> kBrickBits) + 1U;
   cells_of_brick_.assign(std::size_t{bricks_.x} * bricks_.y * bricks_.z, kNone);

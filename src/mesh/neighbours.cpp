@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/mesh.hpp"
+
 namespace rejoin::mesh {
 namespace {
 
@@ -12,13 +14,9 @@ constexpr float kMostCells = 200.0F;  // a side: for points that spread far, cel
 
 Neighbours::Neighbours(std::span<const glm::vec3> points, float radius) : squared_radius_(radius * radius) {
   if (points.empty()) return;
-  glm::vec3 high = points.front();
-  low_ = high;
-  for (const glm::vec3& p : points) {
-    low_ = glm::min(low_, p);
-    high = glm::max(high, p);
-  }
-  const glm::vec3 size = high - low_;
+  const Box box = bounds(points);
+  low_ = box.low;
+  const glm::vec3 size = box.high - box.low;
   // A little wider than the radius, so that rounding puts no neighbour into the cell after the next.
   const float cell = std::max(1.001F * radius, std::max({size.x, size.y, size.z}) / kMostCells);
   per_unit_ = 1.0F / cell;
