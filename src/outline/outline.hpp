@@ -20,18 +20,13 @@ struct Planar {
   bool flipped = false;
 
   /// The point moved.
-  glm::dvec2 operator()(const glm::dvec2& point) const { return direction(point) + translation; }
+  glm::dvec2 operator()(const glm::dvec2& point) const;
 
   /// A direction moved: turned, not shifted.
-  glm::dvec2 direction(const glm::dvec2& v) const {
-    const double c = std::cos(angle_rad);
-    const double s = std::sin(angle_rad);
-    const double y = flipped ? -v.y : v.y;
-    return {c * v.x - s * y, s * v.x + c * y};
-  }
+  glm::dvec2 direction(const glm::dvec2& v) const;
 };
 
-/// A Planar for many points: its sine and cosine are computed once, the results are the same.
+/// A Planar for many points: its sine and cosine are computed once.
 class Motion {
  public:
   explicit Motion(const Planar& pose)
@@ -52,6 +47,14 @@ class Motion {
   glm::dvec2 translation_;
   bool flipped_;
 };
+
+inline glm::dvec2 Planar::operator()(const glm::dvec2& point) const {
+  return Motion(*this)(point);
+}
+
+inline glm::dvec2 Planar::direction(const glm::dvec2& v) const {
+  return Motion(*this).direction(v);
+}
 
 /// First apply b, then a.
 Planar operator*(const Planar& a, const Planar& b);
