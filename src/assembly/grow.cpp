@@ -158,25 +158,30 @@ void Grower::settle_all(State& state, const Context& context) const {
 bool Grower::hear(State& state, const Context& context) {
   settle_all(state, context);
   const double sure = log_odds(options_.sure);
-  std::vector<std::pair<Key, Proposal*>> open;
+  std::vector<Proposal*> open;
+  std::vector<Question> questions;
   for (auto& [key, list] : state.proposals) {
     if (state.members[key.first].size() + state.members[key.second].size() < 3) continue;
     for (Proposal& p : list) {
-      if (!p.heard && p.certainty() >= kWorthHearing) open.emplace_back(key, &p);
+      if (p.heard || p.certainty() < kWorthHearing) continue;
+      open.push_back(&p);
+      questions.push_back(question(state, key, p.link));
     }
   }
   std::vector<double> heard(open.size());
   parallel_for(open.size(), 1, [&](std::size_t first, std::size_t last) {
-    for (std::size_t k = first; k < last && !context.cancelled(); ++k)
-      heard[k] = witness(state, open[k].first, open[k].second->link);
+    for (std::size_t k = first; k < last && !context.cancelled(); ++k) {
+      const auto known = witnessed_.find(questions[k]);
+      heard[k] = known != witnessed_.end() ? known->second : answer(state, questions[k]);
+    }
   });
   bool any = false;
   for (std::size_t k = 0; k < open.size(); ++k) {
-    Proposal& p = *open[k].second;
-    witnessed_[question(state, open[k].first, p.link)] = heard[k];
+    Proposal& p = *open[k];
     p.heard = true;
     p.agreeing = p.agreeing > 0.0 ? std::max(p.agreeing, heard[k]) : heard[k];
     any = any || p.certainty() >= sure;
+    witnessed_.emplace(std::move(questions[k]), heard[k]);
   }
   for (auto& [key, list] : state.proposals) rank(list);
   return any;
@@ -184,23 +189,20 @@ bool Grower::hear(State& state, const Context& context) {
 
 Grower::Question Grower::question(const State& state, const Key& key, std::size_t link) const {
   Question result{link, state.members.at(key.first), state.members.at(key.second)};
-  std::sort(std::get<1>(result).begin(), std::get<1>(result).end());
-  std::sort(std::get<2>(result).begin(), std::get<2>(result).end());
+  auto& [by, stay, move] = result;
+  if (stay.size() < move.size()) std::swap(stay, move);
+  std::sort(stay.begin(), stay.end());
+  std::sort(move.begin(), move.end());
   return result;
 }
 
 /// What the contacts of other pairs add if a link puts two groups together.
-double Grower::witness(const State& state, const Key& key, std::size_t link) const {
-  const auto known = witnessed_.find(question(state, key, link));
-  if (known != witnessed_.end()) return known->second;
+double Grower::answer(const State& state, const Question& question) const {
+  const auto& [link, stay, move] = question;
   std::vector<Rigid> poses = state.growth.poses;
-  const Rigid second_to_first = transform(state, link, key.first);
-  const auto& first = state.members.at(key.first);
-  const auto& second = state.members.at(key.second);
-  for (const std::size_t piece : second) poses[piece] = second_to_first * poses[piece];
-  const bool fewer = second.size() <= first.size();
-  return witness_odds(pieces_, links_[link], std::move(poses), fewer ? first : second, fewer ? second : first,
-                      options_);
+  const Rigid into = transform(state, link, state.growth.group[stay.front()]);
+  for (const std::size_t piece : move) poses[piece] = into * poses[piece];
+  return witness_odds(pieces_, links_[link], std::move(poses), stay, move, options_);
 }
 
 /// Uses the most certain proposal of all, or finds that it does not fit.  False: none is certain enough.

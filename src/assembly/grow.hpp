@@ -68,7 +68,7 @@ class Grower {
     double certainty() const { return alone + agreeing + wish; }
   };
 
-  /// A link, and the members of both groups that it would put together.
+  /// A link, and the members of both groups that it would put together: those of the larger one, those that move.
   using Question = std::tuple<std::size_t, std::vector<std::size_t>, std::vector<std::size_t>>;
 
   /// One growth on its way.
@@ -89,7 +89,7 @@ class Grower {
   void settle_all(State& state, const Context& context) const;
   bool hear(State& state, const Context& context);
   Question question(const State& state, const Key& key, std::size_t link) const;
-  double witness(const State& state, const Key& key, std::size_t link) const;
+  double answer(const State& state, const Question& question) const;
   bool try_best(State& state);
   bool try_triangle(State& state);
   void look_for_triangle(const State& state, const std::array<std::size_t, 3>& groups, double& most,
@@ -113,7 +113,7 @@ class Grower {
   std::vector<double> odds_;                          ///< log-odds, one a link
   std::map<Key, std::vector<std::size_t>> links_of_;  ///< by fragments, best first
   std::vector<Key> wanted_, unwanted_;
-  std::map<Question, double> witnessed_;            ///< what contacts said before
+  std::map<Question, double> witnessed_;  ///< what contacts said before, wherever the groups lay by then
   std::map<std::vector<double>, double> overlaps_;  ///< what was computed before, by pair and pose
 };
 
