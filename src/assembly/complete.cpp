@@ -75,15 +75,13 @@ class Completer {
     if (is_known(guess) || !are_near(a, b, guess.pose, 0.0)) return std::nullopt;
     if (touch(a, b, guess.pose).area < kContact * std::min(a.area(), b.area())) return std::nullopt;
     const match::Joint joint(a.fragment(), b.fragment());
-    const Rigid from_file{glm::dmat3(1.0), -a.fragment().surface.origin};
-    const Rigid to_file{glm::dmat3(1.0), b.fragment().surface.origin};
     const double tolerance = joint.tolerance();
-    const Rigid rough =
-        joint.align(from_file * guess.pose * to_file, {24.0 * tolerance, 4.0 * tolerance, 16, 300});
+    const Rigid rough = joint.align(match::to_origins(a.fragment(), b.fragment(), guess.pose),
+                                    {24.0 * tolerance, 4.0 * tolerance, 16, 300});
     const Rigid fine = joint.align(rough, {12.0 * tolerance, 3.0 * tolerance, 20, 0});
     const double score = match::score_of(match::strength(joint.agreed_evidence(fine)));
     if (score < kLikely) return std::nullopt;
-    const Link link{guess.a, guess.b, inverse(from_file) * fine * inverse(to_file), score};
+    const Link link{guess.a, guess.b, match::to_files(a.fragment(), b.fragment(), fine), score};
     const bool stayed = same_pose(a, b, guess.pose, link.pose, options_);
     if (!stayed || is_known(link) || overlap(a, b, link.pose) > kMostOverlap) return std::nullopt;
     return link;

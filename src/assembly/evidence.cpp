@@ -18,10 +18,8 @@ double log_odds(double score) {
 }
 
 match::Evidence contact_evidence(const Piece& a, const Piece& b, const Rigid& b_to_a) {
-  const Rigid from_file{glm::dmat3(1.0), -a.fragment().surface.origin};
-  const Rigid to_file{glm::dmat3(1.0), b.fragment().surface.origin};
   const match::Joint joint(a.fragment(), b.fragment());
-  return joint.agreed_evidence(from_file * b_to_a * to_file);
+  return joint.agreed_evidence(match::to_origins(a.fragment(), b.fragment(), b_to_a));
 }
 
 bool same_pose(const Piece& a, const Piece& b, const Rigid& first, const Rigid& second,

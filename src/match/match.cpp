@@ -72,11 +72,9 @@ std::vector<Hypothesis> run_sweep(const Fragment& a, const Fragment& b, const Op
 }
 
 std::vector<Hypothesis> proposed(const Fragment& a, const Fragment& b, const Options& options) {
-  const Rigid from_file_a{glm::dmat3(1.0), -a.surface.origin};
-  const Rigid to_file_b{glm::dmat3(1.0), b.surface.origin};
   std::vector<Hypothesis> hypotheses;
   for (const Rigid& proposal : options.proposals) {
-    const Rigid pose = from_file_a * proposal * to_file_b;
+    const Rigid pose = to_origins(a, b, proposal);
     if (axes_agree(pose, options)) hypotheses.push_back({pose, {}, 0.0, -1, -1});
   }
   return hypotheses;
@@ -89,9 +87,7 @@ std::vector<Hypothesis> run_esa(const Fragment& a, const Fragment& b, const Opti
   all.max_candidates = std::max(options.max_candidates, 24);
   std::vector<Hypothesis> hypotheses;
   for (const auto& found : esa_search(a, b, all, EsaOptions{}, context, &stats)) {
-    const Rigid from_file_a{glm::dmat3(1.0), -a.surface.origin};
-    const Rigid to_file_b{glm::dmat3(1.0), b.surface.origin};
-    hypotheses.push_back({from_file_a * found.pose * to_file_b, {}, 0.0, found.facet_a, found.facet_b});
+    hypotheses.push_back({to_origins(a, b, found.pose), {}, 0.0, found.facet_a, found.facet_b});
   }
   result.evaluations = stats.evaluations;
   result.convergence = std::move(stats.convergence);

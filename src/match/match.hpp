@@ -69,6 +69,10 @@ mesh::Mesh surface_of(const std::string& path, const mesh::Mesh& scan);
 /// \throws InputError  as surface_of()
 Fragment prepare(std::string path, mesh::Mesh scan, const Context& context);
 
+/// Poses B -> A in the files' coordinates and relative to the meshes' origins, where the matcher computes.
+Rigid to_origins(const Fragment& a, const Fragment& b, const Rigid& in_files);
+Rigid to_files(const Fragment& a, const Fragment& b, const Rigid& at_origins);
+
 /// How good a joint is, and by what.
 struct JointError {
   double depth = std::numeric_limits<double>::infinity();    ///< e_d, fraction of f_R per pixel step

@@ -41,4 +41,12 @@ Fragment prepare(std::string path, mesh::Mesh scan, const Context& context) {
   return fragment;
 }
 
+Rigid to_origins(const Fragment& a, const Fragment& b, const Rigid& in_files) {
+  return Rigid{glm::dmat3(1.0), -a.surface.origin} * in_files * Rigid{glm::dmat3(1.0), b.surface.origin};
+}
+
+Rigid to_files(const Fragment& a, const Fragment& b, const Rigid& at_origins) {
+  return Rigid{glm::dmat3(1.0), a.surface.origin} * at_origins * Rigid{glm::dmat3(1.0), -b.surface.origin};
+}
+
 }  // namespace rejoin::match

@@ -32,9 +32,7 @@ Verdict verdict_of(double score, const std::optional<Stability>& stability) {
 Candidate unmeasured(const Fragment& a, const Fragment& b, const Rigid& pose, const Evidence& evidence,
                      double strength) {
   Candidate c;
-  const Rigid to_file_a{glm::dmat3(1.0), a.surface.origin};
-  const Rigid from_file_b{glm::dmat3(1.0), -b.surface.origin};
-  c.pose = to_file_a * pose * from_file_b;
+  c.pose = to_files(a, b, pose);
   c.score = score_of(strength);
   c.error.contact_area = evidence.contact_area;
   c.error.gap_median = evidence.gap_median;

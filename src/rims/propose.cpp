@@ -394,9 +394,7 @@ std::vector<Proposal> propose(const match::Fragment& a, const match::Fragment& b
   });
   sort_by(all, &Proposal::strength);
   all = distinct(all, centre, b.diameter, options.most);
-  const Rigid to_file_a{glm::dmat3(1.0), a.surface.origin};
-  const Rigid from_file_b{glm::dmat3(1.0), -b.surface.origin};
-  for (Proposal& proposal : all) proposal.pose = to_file_a * proposal.pose * from_file_b;
+  for (Proposal& proposal : all) proposal.pose = match::to_files(a, b, proposal.pose);
   return all;
 }
 
