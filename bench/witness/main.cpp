@@ -1,5 +1,5 @@
 /// What contacts that no search looked for say of true and of false poses: every candidate of a run puts its piece to all
-/// others, which lie where they belong.
+/// others, which lie where they belong; or every two candidates put three pieces together.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -22,10 +22,12 @@ namespace {
 
 constexpr std::array<double, 5> kBins{-1e300, -1.0, 1.0, 4.0, 8.0};
 
-/// A candidate, seen from the piece that it moves.
+enum class Ask { AllOthers, OneOther, TwoTogether };
+
+/// What candidates put together.
 struct Question {
-  assembly::Link link;  // b moves
-  std::vector<std::size_t> stay;
+  std::vector<assembly::Link> links;  // b of each is moved to its a, in this order
+  std::vector<std::vector<std::size_t>> groups;
   bool right = false;
 };
 
@@ -45,9 +47,8 @@ struct Table {
 class Survey {
  public:
   /// \param least  strength of a candidate that is asked about
-  /// \param one    ask about one other piece at a time, not about all of them together
-  Survey(const FragmentSet& set, const store::Run& run, double least, bool one)
-      : shelf_(set), least_(least), one_(one) {
+  Survey(const FragmentSet& set, const store::Run& run, double least, Ask ask)
+      : shelf_(set), least_(least), ask_(ask) {
     std::map<std::string, std::size_t> number;
     for (const auto& [name, to_world] : set.to_world) {
       number[name] = pieces_.size();
@@ -60,6 +61,7 @@ class Survey {
       for (const store::Candidate& candidate : run.candidates(pair))
         add({by_id.at(pair.a), by_id.at(pair.b), candidate.pose, candidate.score});
     }
+    if (ask_ == Ask::TwoTogether) ask_of_two();
   }
 
   /// Tables of false and of true candidates.
@@ -74,41 +76,60 @@ class Survey {
   }
 
  private:
+  struct Candidate {
+    assembly::Link link;
+    bool right = false;
+  };
+
   void add(const assembly::Link& link) {
     if (link.score < match::score_of(least_)) return;
     const Rigid b_to_a = inverse(truth_[link.a]) * truth_[link.b];
     const bool right =
         PairTruth(pieces_[link.a].fragment(), pieces_[link.b].fragment(), b_to_a).right(link.pose);
-    ask_of(link, right);
-    ask_of({link.b, link.a, inverse(link.pose), link.score}, right);
+    candidates_.push_back({link, right});
+    candidates_.push_back({{link.b, link.a, inverse(link.pose), link.score}, right});
+    if (ask_ == Ask::TwoTogether) return;
+    for (const Candidate& candidate : {candidates_.end()[-2], candidates_.end()[-1]}) ask_of(candidate);
   }
 
-  void ask_of(const assembly::Link& link, bool right) {
+  void ask_of(const Candidate& candidate) {
+    const auto [link, right] = candidate;
     std::vector<std::size_t> others;
     for (std::size_t k = 0; k < pieces_.size(); ++k) {
       if (k != link.a && k != link.b) others.push_back(k);
     }
-    if (one_) {
-      for (const std::size_t k : others) questions_.push_back({link, {link.a, k}, right});
+    if (ask_ == Ask::OneOther) {
+      for (const std::size_t k : others) questions_.push_back({{link}, {{link.a, k}, {link.b}}, right});
     } else {
       others.push_back(link.a);
-      questions_.push_back({link, others, right});
+      questions_.push_back({{link}, {others, {link.b}}, right});
+    }
+  }
+
+  /// About all three pieces that two candidates join.
+  void ask_of_two() {
+    for (const Candidate& one : candidates_) {
+      for (const Candidate& two : candidates_) {
+        if (one.link.a != two.link.a || one.link.b >= two.link.b) continue;
+        questions_.push_back(
+            {{one.link, two.link}, {{one.link.a}, {one.link.b}, {two.link.b}}, one.right && two.right});
+      }
     }
   }
 
   double ask(const Question& question) const {
-    const assembly::Link& link = question.link;
     std::vector<Rigid> poses = truth_;
-    poses[link.b] = poses[link.a] * link.pose;
-    return assembly::witness_odds(pieces_, link, std::move(poses), question.stay, {link.b}, {});
+    for (const assembly::Link& link : question.links) poses[link.b] = poses[link.a] * link.pose;
+    return assembly::witness_odds(pieces_, question.links, question.groups, std::move(poses), {});
   }
 
   Shelf shelf_;
   std::vector<assembly::Piece> pieces_;
   std::vector<Rigid> truth_;
+  std::vector<Candidate> candidates_;  // each from both of its pieces
   std::vector<Question> questions_;
   double least_;
-  bool one_;
+  Ask ask_;
 };
 
 void print(const std::string& set, const char* kind, const Table& table) {
@@ -128,12 +149,17 @@ int main(int argc, char** argv) {
   app.add_option("RUN", run, "what rejoin batch made of it")->required();
   double least = 2.25;
   bool one = false;
+  bool two = false;
   app.add_option("--least", least, "strength from which candidates are asked about")->capture_default_str();
-  app.add_flag("--one", one, "ask about one other piece at a time");
+  auto* one_flag = app.add_flag("--one", one, "ask about one other piece at a time");
+  app.add_flag("--two", two, "ask about every two candidates with a common piece")->excludes(one_flag);
   CLI11_PARSE(app, argc, argv);
   try {
     const auto fragments = rejoin::bench::read_set(set);
-    const rejoin::bench::Survey survey(fragments, rejoin::store::Run::open(run), least, one);
+    const auto ask = two   ? rejoin::bench::Ask::TwoTogether
+                     : one ? rejoin::bench::Ask::OneOther
+                           : rejoin::bench::Ask::AllOthers;
+    const rejoin::bench::Survey survey(fragments, rejoin::store::Run::open(run), least, ask);
     const auto tables = survey.run();
     fmt::print("| set | candidates | asked | below -1 | -1 to 1 | 1 to 4 | 4 to 8 | 8 and more |\n");
     fmt::print("| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n");

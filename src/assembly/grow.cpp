@@ -12,11 +12,12 @@ namespace {
 constexpr double kLeastOdds = -6.0;  // links below are noise
 constexpr double kWanted = 1000.0;   // certainty that goes before everything
 constexpr double kFirst = 500.0;
-constexpr double kWorthHearing = -5.0;  // certainty from which others are asked
-constexpr double kTriangle = 1.0;       // what three unsure joins need above the limit for one
-constexpr double kTriangleOdds = -3.0;  // of each
-constexpr std::size_t kProposals = 24;  // per two groups
-constexpr double kLeastTouch = 0.002;   // share of the smaller piece's surface
+constexpr double kWorthHearing = -6.0;   // certainty from which others are asked
+constexpr double kTogether = 1.0;        // what two unsure joins need together above the limit for one
+constexpr double kTogetherOdds = -5.0;   // of each, at least
+constexpr double kTogetherWorth = -8.0;  // of both, for the third pair to be asked
+constexpr std::size_t kProposals = 24;   // per two groups
+constexpr double kLeastTouch = 0.002;    // share of the smaller piece's surface
 
 std::pair<std::size_t, std::size_t> key_of(std::size_t a, std::size_t b) {
   return {std::min(a, b), std::max(a, b)};
@@ -46,7 +47,7 @@ bool Grower::must(const std::vector<Key>& pairs, std::size_t link) const {
 Growth Grower::grow(const std::set<std::size_t>& first, const Context& context) {
   State state = start(first);
   while (!context.cancelled() &&
-         (try_best(state) || (hear(state, context) && try_best(state)) || try_triangle(state))) {
+         (try_best(state) || (hear(state, context) && try_best(state)) || try_two(state, context))) {
   }
   tell_contradictions(state);
   sum_up(state.growth);
@@ -165,44 +166,73 @@ bool Grower::hear(State& state, const Context& context) {
     for (Proposal& p : list) {
       if (p.heard || p.certainty() < kWorthHearing) continue;
       open.push_back(&p);
-      questions.push_back(question(state, key, p.link));
+      questions.push_back(question(state, {p.link}));
     }
   }
-  std::vector<double> heard(open.size());
-  parallel_for(open.size(), 1, [&](std::size_t first, std::size_t last) {
-    for (std::size_t k = first; k < last && !context.cancelled(); ++k) {
-      const auto known = witnessed_.find(questions[k]);
-      heard[k] = known != witnessed_.end() ? known->second : answer(state, questions[k]);
-    }
-  });
+  const std::vector<double> heard = answers(state, questions, context);
   bool any = false;
   for (std::size_t k = 0; k < open.size(); ++k) {
     Proposal& p = *open[k];
     p.heard = true;
     p.agreeing = p.agreeing > 0.0 ? std::max(p.agreeing, heard[k]) : heard[k];
     any = any || p.certainty() >= sure;
-    witnessed_.emplace(std::move(questions[k]), heard[k]);
   }
   for (auto& [key, list] : state.proposals) rank(list);
   return any;
 }
 
-Grower::Question Grower::question(const State& state, const Key& key, std::size_t link) const {
-  Question result{link, state.members.at(key.first), state.members.at(key.second)};
-  auto& [by, stay, move] = result;
-  if (stay.size() < move.size()) std::swap(stay, move);
-  std::sort(stay.begin(), stay.end());
-  std::sort(move.begin(), move.end());
+Grower::Question Grower::question(const State& state, std::vector<std::size_t> links) const {
+  std::set<std::size_t> groups;
+  for (const std::size_t link : links) {
+    groups.insert(state.growth.group[links_[link].a]);
+    groups.insert(state.growth.group[links_[link].b]);
+  }
+  Question result;
+  for (const std::size_t group : groups) {
+    result.groups.push_back(state.members.at(group));
+    std::sort(result.groups.back().begin(), result.groups.back().end());
+  }
+  std::stable_sort(result.groups.begin(), result.groups.end(),
+                   [](const auto& x, const auto& y) { return x.size() > y.size(); });
+  std::sort(links.begin(), links.end());
+  result.links = std::move(links);
   return result;
 }
 
-/// What the contacts of other pairs add if a link puts two groups together.
+/// What the contacts of other pairs add if links put groups together.
 double Grower::answer(const State& state, const Question& question) const {
-  const auto& [link, stay, move] = question;
   std::vector<Rigid> poses = state.growth.poses;
-  const Rigid into = transform(state, link, state.growth.group[stay.front()]);
-  for (const std::size_t piece : move) poses[piece] = into * poses[piece];
-  return witness_odds(pieces_, links_[link], std::move(poses), stay, move, options_);
+  std::vector<Link> links;
+  for (const std::size_t link : question.links) links.push_back(links_[link]);
+  std::set<std::size_t> placed{state.growth.group[question.groups.front().front()]};
+  while (placed.size() < question.groups.size()) {
+    for (const Link& l : links) {
+      const std::size_t of_a = state.growth.group[l.a];
+      const std::size_t of_b = state.growth.group[l.b];
+      if (placed.count(of_a) == placed.count(of_b)) continue;
+      const bool b_moves = placed.count(of_a) != 0;
+      const Rigid b_to_a = poses[l.a] * l.pose * inverse(poses[l.b]);
+      const Rigid into = b_moves ? b_to_a : inverse(b_to_a);
+      const std::size_t moves = b_moves ? of_b : of_a;
+      for (const std::size_t piece : state.members.at(moves)) poses[piece] = into * poses[piece];
+      placed.insert(moves);
+    }
+  }
+  return witness_odds(pieces_, links, question.groups, std::move(poses), options_);
+}
+
+/// Answers of several questions, also of those that were asked before.
+std::vector<double> Grower::answers(const State& state, std::vector<Question>& questions,
+                                    const Context& context) {
+  std::vector<double> result(questions.size());
+  parallel_for(questions.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last && !context.cancelled(); ++k) {
+      const auto known = answered_.find(questions[k]);
+      result[k] = known != answered_.end() ? known->second : answer(state, questions[k]);
+    }
+  });
+  for (std::size_t k = 0; k < questions.size(); ++k) answered_.emplace(std::move(questions[k]), result[k]);
+  return result;
 }
 
 /// Uses the most certain proposal of all, or finds that it does not fit.  False: none is certain enough.
@@ -223,73 +253,61 @@ bool Grower::try_best(State& state) {
   return true;
 }
 
-/// Whether link three joins what one and two do, at the same pose.
-bool Grower::closes(const State& state, std::size_t one, std::size_t two, std::size_t three) const {
-  const auto group = [&](std::size_t piece) { return state.growth.group[piece]; };
-  const Link& l = links_[three];
-  // The group that links one and two share stands between those that link three joins.
-  const bool a_by_one = group(links_[one].a) == group(l.a) || group(links_[one].b) == group(l.a);
-  const std::size_t by_a = a_by_one ? one : two;
-  const std::size_t by_b = a_by_one ? two : one;
-  const std::size_t middle =
-      group(links_[by_a].a) == group(l.a) ? group(links_[by_a].b) : group(links_[by_a].a);
-  const Rigid a_to_middle = transform(state, by_a, middle);
-  const Rigid b_to_middle = transform(state, by_b, middle);
-  const Rigid predicted =
-      inverse(a_to_middle * state.growth.poses[l.a]) * b_to_middle * state.growth.poses[l.b];
-  return same_pose(pieces_[l.a], pieces_[l.b], l.pose, predicted, options_);
-}
-
-/// Proposals between two groups that may be part of a triangle.
-std::vector<std::size_t> Grower::corners(const State& state, std::size_t g, std::size_t h) const {
-  std::vector<std::size_t> list;
-  const auto found = state.proposals.find(key_of(g, h));
-  if (found == state.proposals.end()) return list;
-  for (const Proposal& p : found->second) {
-    if (p.certainty() >= kTriangleOdds) list.push_back(p.link);
+/// Unsure links of two pairs of groups with one group in common, which are worth hearing together.
+std::vector<std::array<std::size_t, 2>> Grower::unsure_together(const State& state) const {
+  struct End {
+    std::size_t link;
+    std::size_t group;  // that it joins with the common one
+    double certainty;
+  };
+  std::map<std::size_t, std::vector<End>> ends;  // by the common group
+  for (const auto& [key, list] : state.proposals) {
+    for (const Proposal& p : list) {
+      if (p.certainty() < kTogetherOdds) continue;
+      ends[key.first].push_back({p.link, key.second, p.certainty()});
+      ends[key.second].push_back({p.link, key.first, p.certainty()});
+    }
   }
-  return list;
-}
-
-/// Of three groups' links, the three that agree and are surest, if they are surer than `most` together.
-void Grower::look_for_triangle(const State& state, const std::array<std::size_t, 3>& groups, double& most,
-                               std::array<std::size_t, 3>& best) const {
-  const auto third = corners(state, groups[0], groups[2]);
-  if (third.empty()) return;
-  const auto second = corners(state, groups[1], groups[2]);
-  for (const std::size_t x : corners(state, groups[0], groups[1])) {
-    for (const std::size_t y : second) {
-      for (const std::size_t z : third) {
-        const double sum = odds_[x] + odds_[y] + odds_[z] + options_.loop_weight;
-        if (sum <= most || !closes(state, x, y, z)) continue;
-        most = sum;
-        best = {x, y, z};
+  std::vector<std::array<std::size_t, 2>> result;
+  for (const auto& [common, list] : ends) {
+    for (std::size_t x = 0; x < list.size(); ++x) {
+      for (std::size_t y = x + 1; y < list.size(); ++y) {
+        if (list[x].group != list[y].group && list[x].certainty + list[y].certainty >= kTogetherWorth)
+          result.push_back({list[x].link, list[y].link});
       }
     }
   }
+  return result;
 }
 
-/// Three groups, each two of which have a join that is not sure, but all three agree.
-bool Grower::try_triangle(State& state) {
-  double most = log_odds(options_.sure) + kTriangle;
-  std::array<std::size_t, 3> best{};
-  for (const auto& [key, list] : state.proposals) {
-    if (corners(state, key.first, key.second).empty()) continue;
-    for (auto third = state.members.upper_bound(key.second); third != state.members.end(); ++third) {
-      look_for_triangle(state, {key.first, key.second, third->first}, most, best);
-    }
+/// Three groups that two unsure joins put together, so that contacts of other pairs speak for both at once.
+bool Grower::try_two(State& state, const Context& context) {
+  const std::vector<std::array<std::size_t, 2>> pairs = unsure_together(state);
+  std::vector<Question> questions;
+  for (const auto& pair : pairs) questions.push_back(question(state, {pair.begin(), pair.end()}));
+  const std::vector<double> heard = answers(state, questions, context);
+  double most = log_odds(options_.sure) + kTogether;
+  std::array<std::size_t, 2> best{};
+  double vouched = 0.0;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const double odds = odds_[pairs[k][0]] + odds_[pairs[k][1]] + heard[k];
+    if (odds <= most) continue;
+    most = odds;
+    best = pairs[k];
+    vouched = heard[k];
   }
   if (best[0] == best[1]) return false;
-  for (const std::size_t link : best) {  // whatever happens, this triangle is not tried again
+  for (const std::size_t link : best) {  // whatever happens, these two are not tried again
     auto& list =
         state.proposals[key_of(state.growth.group[links_[link].a], state.growth.group[links_[link].b])];
     const auto same = [&](const Proposal& p) { return p.link == link; };
     list.erase(std::remove_if(list.begin(), list.end(), same), list.end());
   }
-  std::sort(best.begin(), best.end(), [&](std::size_t x, std::size_t y) { return odds_[x] > odds_[y]; });
   if (!fits(state, best[0])) return true;
   merge(state, best[0], most);
-  if (fits(state, best[1])) merge(state, best[1], most);
+  if (!fits(state, best[1])) return true;
+  merge(state, best[1], most);
+  state.growth.vouched += vouched;
   return true;
 }
 

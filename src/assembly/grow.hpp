@@ -68,8 +68,15 @@ class Grower {
     double certainty() const { return alone + agreeing + wish; }
   };
 
-  /// A link, and the members of both groups that it would put together: those of the larger one, those that move.
-  using Question = std::tuple<std::size_t, std::vector<std::size_t>, std::vector<std::size_t>>;
+  /// Links, and the members of the groups that they would put together: the largest, then those that move.
+  struct Question {
+    std::vector<std::size_t> links;
+    std::vector<std::vector<std::size_t>> groups;
+
+    friend bool operator<(const Question& x, const Question& y) {
+      return std::tie(x.links, x.groups) < std::tie(y.links, y.groups);
+    }
+  };
 
   /// One growth on its way.
   struct State {
@@ -88,14 +95,12 @@ class Grower {
   static void rank(std::vector<Proposal>& proposals);
   void settle_all(State& state, const Context& context) const;
   bool hear(State& state, const Context& context);
-  Question question(const State& state, const Key& key, std::size_t link) const;
+  Question question(const State& state, std::vector<std::size_t> links) const;
   double answer(const State& state, const Question& question) const;
+  std::vector<double> answers(const State& state, std::vector<Question>& questions, const Context& context);
   bool try_best(State& state);
-  bool try_triangle(State& state);
-  void look_for_triangle(const State& state, const std::array<std::size_t, 3>& groups, double& most,
-                         std::array<std::size_t, 3>& best) const;
-  std::vector<std::size_t> corners(const State& state, std::size_t g, std::size_t h) const;
-  bool closes(const State& state, std::size_t one, std::size_t two, std::size_t three) const;
+  bool try_two(State& state, const Context& context);
+  std::vector<std::array<std::size_t, 2>> unsure_together(const State& state) const;
   bool fits(State& state, std::size_t link);
   double overlap_of(std::size_t a, std::size_t b, const Rigid& b_to_a);
   void merge(State& state, std::size_t link, double odds) const;
@@ -113,7 +118,7 @@ class Grower {
   std::vector<double> odds_;                          ///< log-odds, one a link
   std::map<Key, std::vector<std::size_t>> links_of_;  ///< by fragments, best first
   std::vector<Key> wanted_, unwanted_;
-  std::map<Question, double> witnessed_;  ///< what contacts said before, wherever the groups lay by then
+  std::map<Question, double> answered_;  ///< what contacts said before, wherever the groups lay by then
   std::map<std::vector<double>, double> overlaps_;  ///< what was computed before, by pair and pose
 };
 

@@ -16,38 +16,26 @@ constexpr double kMostPatches = 16.0;  // a contact is one surface, whose patche
 constexpr double kHeard = 1.0;         // log-odds that false poses next to never get from their neighbours
 constexpr double kSurprise = 2.0;      // what getting them adds
 
-bool is_own(const Link& link, std::size_t a, std::size_t b) {
-  return (link.a == a && link.b == b) || (link.a == b && link.b == a);
-}
-
 class Meeting {
  public:
-  Meeting(const std::vector<Piece>& pieces, const Link& link, std::vector<Rigid> poses,
+  Meeting(const std::vector<Piece>& pieces, const std::vector<Link>& links,
+          const std::vector<std::vector<std::size_t>>& groups, std::vector<Rigid> poses,
           const Options& options)
-      : pieces_(pieces), link_(link), poses_(std::move(poses)), options_(options) {}
+      : pieces_(pieces), links_(links), groups_(groups), poses_(std::move(poses)), options_(options) {}
 
-  double odds(const std::vector<std::size_t>& stay, const std::vector<std::size_t>& move) {
-    std::vector<Touching> contacts = between(stay, move);
-    if (contacts.size() < 2 || overlaps(stay, move)) return 0.0;
+  double odds() {
+    std::vector<Touching> contacts = between_groups();
+    if (contacts.size() <= links_.size() || overlaps()) return 0.0;
     const std::size_t others = contacts.size();
-    for (std::size_t x = 0; x < move.size(); ++x) {
-      for (std::size_t y = x + 1; y < move.size(); ++y)
-        contacts.push_back({move[x], move[y], relative(move[x], move[y]), true});
-    }
-    std::vector<std::size_t> members = move;
-    std::vector<std::size_t> fixed;
-    for (std::size_t k = 0; k < others; ++k) fixed.push_back(contacts[k].a);
-    std::sort(fixed.begin(), fixed.end());
-    fixed.erase(std::unique(fixed.begin(), fixed.end()), fixed.end());
-    members.insert(members.end(), fixed.begin(), fixed.end());
-    spread_error(pieces_, members, contacts, fixed, poses_);
-    if (!same_pose(pieces_[link_.a], pieces_[link_.b], link_.pose, relative(link_.a, link_.b), options_)) {
-      return 0.0;
-    }
+    align(contacts);
+    const bool steady = std::all_of(links_.begin(), links_.end(), [&](const Link& link) {
+      return same_pose(pieces_[link.a], pieces_[link.b], link.pose, relative(link.a, link.b), options_);
+    });
+    if (!steady) return 0.0;
     double sum = 0.0;
     for (std::size_t k = 0; k < others; ++k) {
       const auto [a, b, pose, matched] = contacts[k];
-      if (is_own(link_, a, b)) continue;
+      if (is_own(a, b)) continue;
       sum += witness_odds(contact_evidence(pieces_[a], pieces_[b], relative(a, b)));
     }
     return sum >= kHeard ? sum + kSurprise : sum;
@@ -56,31 +44,70 @@ class Meeting {
  private:
   Rigid relative(std::size_t a, std::size_t b) const { return inverse(poses_[a]) * poses_[b]; }
 
-  /// The link's own pair and all others that touch; a of the group that stays.
-  std::vector<Touching> between(const std::vector<std::size_t>& stay,
-                                const std::vector<std::size_t>& move) const {
-    std::vector<Touching> contacts;
-    for (const std::size_t a : stay) {
-      for (const std::size_t b : move) {
-        const Rigid b_to_a = relative(a, b);
-        const double least = kContact * std::min(pieces_[a].area(), pieces_[b].area());
-        if (is_own(link_, a, b) || touch(pieces_[a], pieces_[b], b_to_a).area > least)
-          contacts.push_back({a, b, b_to_a, false});
-      }
-    }
-    return contacts;
-  }
-
-  bool overlaps(const std::vector<std::size_t>& stay, const std::vector<std::size_t>& move) const {
-    return std::any_of(stay.begin(), stay.end(), [&](std::size_t a) {
-      return std::any_of(move.begin(), move.end(), [&](std::size_t b) {
-        return overlap(pieces_[a], pieces_[b], relative(a, b)) > kMostOverlap;
-      });
+  /// Whether a link is of these two.
+  bool is_own(std::size_t a, std::size_t b) const {
+    return std::any_of(links_.begin(), links_.end(), [&](const Link& link) {
+      return (link.a == a && link.b == b) || (link.a == b && link.b == a);
     });
   }
 
+  /// Visits every two pieces of different groups until one says true.
+  template <typename Visit>
+  bool any_two(const Visit& visit) const {
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      for (std::size_t h = g + 1; h < groups_.size(); ++h) {
+        for (const std::size_t a : groups_[g]) {
+          for (const std::size_t b : groups_[h]) {
+            if (visit(a, b)) return true;
+          }
+        }
+      }
+    }
+    return false;
+  }
+
+  /// The links' own pairs and all others that touch; a of the earlier group.
+  std::vector<Touching> between_groups() const {
+    std::vector<Touching> contacts;
+    any_two([&](std::size_t a, std::size_t b) {
+      const Rigid b_to_a = relative(a, b);
+      const double least = kContact * std::min(pieces_[a].area(), pieces_[b].area());
+      if (is_own(a, b) || touch(pieces_[a], pieces_[b], b_to_a).area > least)
+        contacts.push_back({a, b, b_to_a, false});
+      return false;
+    });
+    return contacts;
+  }
+
+  bool overlaps() const {
+    return any_two([&](std::size_t a, std::size_t b) {
+      return overlap(pieces_[a], pieces_[b], relative(a, b)) > kMostOverlap;
+    });
+  }
+
+  /// The first group stays, as far as the others touch it; adds what holds the other groups together to the contacts.
+  void align(std::vector<Touching>& contacts) {
+    std::vector<std::size_t> members;
+    for (std::size_t g = 1; g < groups_.size(); ++g) {
+      const auto& group = groups_[g];
+      members.insert(members.end(), group.begin(), group.end());
+      for (std::size_t x = 0; x < group.size(); ++x) {
+        for (std::size_t y = x + 1; y < group.size(); ++y)
+          contacts.push_back({group[x], group[y], relative(group[x], group[y]), true});
+      }
+    }
+    std::vector<std::size_t> fixed;
+    for (const std::size_t piece : groups_.front()) {
+      if (std::any_of(contacts.begin(), contacts.end(), [&](const Touching& c) { return c.a == piece; }))
+        fixed.push_back(piece);
+    }
+    members.insert(members.end(), fixed.begin(), fixed.end());
+    spread_error(pieces_, members, contacts, fixed, poses_);
+  }
+
   const std::vector<Piece>& pieces_;
-  const Link& link_;
+  const std::vector<Link>& links_;
+  const std::vector<std::vector<std::size_t>>& groups_;
   std::vector<Rigid> poses_;
   const Options& options_;
 };
@@ -98,10 +125,10 @@ double witness_odds(const match::Evidence& evidence) {
   return patches * contact + std::max(0.0, shape);
 }
 
-double witness_odds(const std::vector<Piece>& pieces, const Link& link, std::vector<Rigid> poses,
-                    const std::vector<std::size_t>& stay, const std::vector<std::size_t>& move,
+double witness_odds(const std::vector<Piece>& pieces, const std::vector<Link>& links,
+                    const std::vector<std::vector<std::size_t>>& groups, std::vector<Rigid> poses,
                     const Options& options) {
-  return Meeting(pieces, link, std::move(poses), options).odds(stay, move);
+  return Meeting(pieces, links, groups, std::move(poses), options).odds();
 }
 
 }  // namespace rejoin::assembly

@@ -225,6 +225,19 @@ TEST(Assemble, AnUnsureJoinIsNotUsedWhereTheThirdPieceDoesNotFit) {
   EXPECT_EQ(result.placements[corner.c].group, -1);
 }
 
+TEST(Assemble, TwoUnsureJoinsAreUsedWhereTheThirdPairFitsThatNobodySearchedFor) {
+  const Corner corner = corner_of(ball());
+  const Link one = ball().true_link(corner.a, corner.b, 0.1);
+  const Result result = run(ball(), {one, ball().true_link(corner.b, corner.c, 0.05)});
+  ASSERT_EQ(result.groups, 1);
+  for (const std::size_t piece : {corner.a, corner.b, corner.c}) {
+    EXPECT_EQ(result.placements[piece].group, 0);
+    EXPECT_GT(result.placements[piece].confidence, 0.98);
+  }
+  EXPECT_LT(ball().worst_turn(result), 0.5);
+  EXPECT_EQ(run(ball(), {one, ball().false_link(corner.b, corner.c, 0.1, 20.0, 0.05)}).groups, 0);
+}
+
 TEST(Witness, OtherContactsSpeakForTrueLinksOnly) {
   const Corner corner = corner_of(ball());
   std::vector<Piece> pieces;
@@ -232,7 +245,7 @@ TEST(Witness, OtherContactsSpeakForTrueLinksOnly) {
   const auto heard = [&](const Link& link) {
     std::vector<Rigid> poses = ball().to_world;
     poses[link.b] = poses[link.a] * link.pose;
-    return witness_odds(pieces, link, poses, {corner.a, corner.b}, {corner.c}, {});
+    return witness_odds(pieces, {link}, {{corner.a, corner.b}, {corner.c}}, poses, {});
   };
   EXPECT_GT(heard(ball().true_link(corner.a, corner.c, 0.5)), 6.0);
   EXPECT_LE(heard(ball().false_link(corner.a, corner.c, 0.5, 20.0, 0.05)), 0.0);
