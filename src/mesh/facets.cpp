@@ -21,9 +21,11 @@ constexpr double kSmoothRadius = 2.0;   // spacings: about 12 neighbours
 constexpr double kQuadricRadius = 4.0;  // spacings: about 50 neighbours for 6 unknowns
 constexpr float kWallLow = 0.5F;        // of the wall thickness
 constexpr float kWallHigh = 1.8F;
-constexpr float kWallSquare = 0.8F;      // the opposite wall may lean by 37 degrees
-constexpr double kStripRadius = 0.7;     // of the wall thickness
-constexpr float kStripCone = 28.0F;      // degrees: a strip ends where the break turns a corner
+constexpr float kWallSquare = 0.8F;   // the opposite wall may lean by 37 degrees
+constexpr double kStripRadius = 0.7;  // of the wall thickness
+constexpr float kStripCone = 28.0F;   // degrees: a strip ends where the break turns a corner
+constexpr double kStripOfSize =
+    0.125;  // of the piece: the break of a thicker wall is as wide as a solid's side
 constexpr double kSamplesPerWall = 7.0;  // across a sherd's fracture strip
 constexpr double kMostSamples = 60000.0;
 
@@ -226,7 +228,7 @@ Segmentation segment(const Mesh& mesh, double size) {
 
   detail::GrowOptions options;
   options.spacing = s.samples.spacing;
-  if (thin) options.cone_deg = kStripCone;
+  if (thin && s.wall_thickness < kStripOfSize * size) options.cone_deg = kStripCone;
   options.smallest = detail::smallest_facet(s);
   detail::set_facets(s, detail::grow_facets(s.samples.points, thin ? strip_normals(s) : s.normals, s.surface,
                                             near, options));

@@ -13,7 +13,11 @@ namespace {
 constexpr float kSquare = 0.8F;  // rays that leave within 37 degrees of the normal count for the thickness
 constexpr double kBinsPerOctave = 12.0;  // 6 % wide bins: finer than the walls of a thrown pot vary
 constexpr double kThinnest = 1.0 / 4096.0;
-constexpr double kMostOfSize = 0.12;
+constexpr double kMostOfSize = 0.12;  // of a thin piece
+constexpr double kMostOfSherd = 0.2;  // of one whose walls run parallel nearly everywhere
+constexpr float kParallel = 0.95F;    // within 18 degrees
+constexpr double kEvenLow = 0.8;      // of the thickness
+constexpr double kEvenHigh = 1.25;
 
 }  // namespace
 
@@ -64,11 +68,15 @@ double wall_thickness(const InwardRays& rays, double size) {
   }
   const double guess = size * kThinnest * std::exp2((static_cast<double>(mode) + 0.5) / kBinsPerOctave);
   std::vector<float> near;
+  std::size_t parallel = 0;
   for (std::size_t i = 0; i < rays.length.size(); ++i) {
     const double ratio = static_cast<double>(rays.length[i]) / guess;
     if (rays.square[i] > kSquare && ratio > 0.6 && ratio < 1.6) near.push_back(rays.length[i]);
+    if (rays.square[i] > kParallel && ratio > kEvenLow && ratio < kEvenHigh) ++parallel;
   }
-  if (guess > kMostOfSize * size || 3 * near.size() < rays.length.size()) return 0.0;
+  const bool thin = guess <= kMostOfSize * size && 3 * near.size() >= rays.length.size();
+  const bool sherd = guess <= kMostOfSherd * size && 2 * parallel >= rays.length.size();
+  if (!thin && !sherd) return 0.0;
   const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
   std::nth_element(near.begin(), middle, near.end());
   return static_cast<double>(*middle);

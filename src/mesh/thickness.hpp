@@ -19,8 +19,9 @@ struct InwardRays {
 /// \param normals  smoothed outward normals of the samples
 InwardRays cast_inwards(const Mesh& mesh, const Samples& samples, const std::vector<glm::vec3>& normals);
 
-/// The most frequent length of rays that leave squarely, if it makes the piece thin: at least a third of the
-/// surface has an opposite wall at 0.6 to 1.6 of it, and it is small against the piece's size.  0 otherwise.
+/// The most frequent length of rays that leave squarely, if it makes the piece thin: at least a third of the surface has an
+/// opposite wall at 0.6 to 1.6 of it, and it is small (0.12) against the piece's size; or a small sherd of a thick vessel, up to
+/// 0.2 of its size, half of whose surface has a parallel wall at 0.8 to 1.25 of it.  0 otherwise.
 /// \param size  diameter of the piece, mesh units
 double wall_thickness(const InwardRays& rays, double size);
 
