@@ -20,12 +20,12 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using detail::Finder;
 using detail::kFacing;
-using detail::kWallAlike;
 using detail::kWallNear;
 using detail::stride;
 
 constexpr int kBodySamples = 4000;       // of B that are asked whether they lie inside A
 constexpr double kWallStep = 0.3;        // wall thicknesses by which walls that go on may be offset
+constexpr double kWallBend = 0.25;       // walls bend by at most 75 degrees at a seam
 constexpr int kQuadricRounds = 12;       // at most
 constexpr double kQuadricSteady = 0.02;  // share by which the deviation may still change in the end
 constexpr double kQuadricReach = 7.0;    // robust deviations beyond which a height does not bend the quadric
@@ -188,17 +188,27 @@ class Look {
     const std::size_t step = stride(b_.walls.points.size(), most_samples_);
     for (std::size_t i = 0; i < b_.walls.points.size(); i += step) {
       const glm::vec3 p = move_(b_.walls.points[i]);
-      if (!near_broken.within(p, near)) continue;
+      const auto seam = near_broken.within(p, near);
+      if (!seam) continue;
       all += 1.0;
-      const auto hit = finder.within(p, 2.0 * near);
-      if (!hit) continue;
-      const glm::dvec3 n_b(move_.direction(b_.walls.normals[i]));
-      const glm::dvec3 n_a(a_.walls.normals[hit->first]);
-      if (glm::dot(n_a, n_b) < static_cast<double>(kWallAlike)) continue;
-      const double offset = glm::dot(glm::dvec3(p - a_.walls.points[hit->first]), glm::normalize(n_a + n_b));
-      if (std::abs(offset) < kWallStep * lengths_.thickness) found += 1.0;
+      const glm::dvec3 normal(move_.direction(b_.walls.normals[i]));
+      // Where the wall bends along the seam, what is as far behind it as the point is before it shows no step.
+      const glm::vec3 behind = 2.0F * a_.broken.points[seam->first] - p;
+      if (goes_on(p, normal, finder.within(p, 2.0 * near)) || goes_on(p, normal, finder.within(behind, near)))
+        found += 1.0;
     }
     if (all > 0) e.wall_share = found / all;
+  }
+
+  /// Whether a point of B's walls and one of A's may be of one wall.
+  bool goes_on(const glm::vec3& p, const glm::dvec3& normal,
+               const std::optional<std::pair<std::uint32_t, float>>& hit) const {
+    if (!hit) return false;
+    const glm::dvec3 other(a_.walls.normals[hit->first]);
+    if (glm::dot(other, normal) < kWallBend) return false;
+    const glm::dvec3 between = glm::normalize(other + normal);
+    const double step = glm::dot(glm::dvec3(p - a_.walls.points[hit->first]), between);
+    return std::abs(step) < kWallStep * lengths_.thickness;
   }
 
   const detail::JointSides& sides_;

@@ -246,6 +246,30 @@ TEST(Joint, FlatSidesWithWornRimsGiveNoInformation) {
   EXPECT_LT(strength(evidence), 1.0);
 }
 
+/// Half of a plate 8 mm thick, broken across; from the break on, the upper half leans by an angle.
+Fragment half_plate(bool below, double lean_deg) {
+  mesh::Mesh half = testing::half_block(below, 96);
+  for (auto& v : half.vertices) {
+    const bool far = std::abs(v.z) == static_cast<float>(testing::kHalfZ);
+    v.x *= 0.1F;
+    const double cut = 0.5 * testing::cut_height(static_cast<double>(v.x), static_cast<double>(v.y));
+    const double end = below ? -40.0 : 40.0;
+    v.z = static_cast<float>(far ? end : cut);
+    if (far && !below) v.x += static_cast<float>(std::tan(lean_deg * kDegree) * (end - cut));
+  }
+  return prepare(below ? "below" : "above", half, Context{});
+}
+
+TEST(Joint, WallsGoOnWhereTheyBendAtTheBreakButNotOverAStep) {
+  for (const double lean_deg : {0.0, 30.0, 55.0}) {
+    const Joint joint(half_plate(true, lean_deg), half_plate(false, lean_deg));
+    EXPECT_GT(joint.evidence(Rigid{}, 0).wall_share, 0.6) << lean_deg << " degrees";
+    EXPECT_GT(score_of(strength(joint.agreed_evidence(Rigid{}))), 0.99) << lean_deg << " degrees";
+    const Rigid step{glm::dmat3(1.0), {4.0, 0.0, 0.0}};
+    EXPECT_LT(joint.evidence(step, 0).wall_share, 0.2) << lean_deg << " degrees";
+  }
+}
+
 TEST(Joint, AgreedStrengthIsTheGeometricMeanOfThatOfBothSides) {
   const Pair pair = make_pair(12);
   const Joint joint(pair.a, pair.b);
