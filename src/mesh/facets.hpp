@@ -41,9 +41,9 @@ struct Segmentation {
 /// Segments a surface.
 ///
 /// Thin-walled pieces: a point whose inward ray meets the opposite wall from behind at 0.5 to 1.8 wall
-/// thicknesses is original surface, the rest is fracture.  Solid pieces: facets that are clearly rougher than
-/// the smoothest are fracture; where roughness does not tell, every facet counts as fracture.  Facets grow
-/// over smoothed normals from the flattest places. \pre the mesh has faces \source papaioannou 2002,
+/// thicknesses is original surface, the rest is fracture.  Solid pieces: every facet counts as fracture, as
+/// roughness does not tell a break from a carved or weathered surface.  Facets grow over smoothed normals from
+/// the flattest places. \pre the mesh has faces \source papaioannou 2002,
 /// section 6.2 (mean normals of the most irregular compact facets)
 /// \param size  diameter(mesh)
 Segmentation segment(const Mesh& mesh, double size);
