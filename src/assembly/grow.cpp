@@ -254,26 +254,27 @@ bool Grower::try_best(State& state) {
 }
 
 /// Unsure links of two pairs of groups with one group in common, which are worth hearing together.
-std::vector<std::array<std::size_t, 2>> Grower::unsure_together(const State& state) const {
+std::vector<Grower::Two> Grower::unsure_together(const State& state) const {
   struct End {
-    std::size_t link;
+    const Proposal* proposal;
     std::size_t group;  // that it joins with the common one
-    double certainty;
   };
   std::map<std::size_t, std::vector<End>> ends;  // by the common group
   for (const auto& [key, list] : state.proposals) {
     for (const Proposal& p : list) {
       if (p.certainty() < kTogetherOdds) continue;
-      ends[key.first].push_back({p.link, key.second, p.certainty()});
-      ends[key.second].push_back({p.link, key.first, p.certainty()});
+      ends[key.first].push_back({&p, key.second});
+      ends[key.second].push_back({&p, key.first});
     }
   }
-  std::vector<std::array<std::size_t, 2>> result;
+  std::vector<Two> result;
   for (const auto& [common, list] : ends) {
     for (std::size_t x = 0; x < list.size(); ++x) {
       for (std::size_t y = x + 1; y < list.size(); ++y) {
-        if (list[x].group != list[y].group && list[x].certainty + list[y].certainty >= kTogetherWorth)
-          result.push_back({list[x].link, list[y].link});
+        const Proposal& p = *list[x].proposal;
+        const Proposal& q = *list[y].proposal;
+        if (list[x].group != list[y].group && p.certainty() + q.certainty() >= kTogetherWorth)
+          result.push_back({{p.link, q.link}, p.alone + q.alone});
       }
     }
   }
@@ -282,18 +283,18 @@ std::vector<std::array<std::size_t, 2>> Grower::unsure_together(const State& sta
 
 /// Three groups that two unsure joins put together, so that contacts of other pairs speak for both at once.
 bool Grower::try_two(State& state, const Context& context) {
-  const std::vector<std::array<std::size_t, 2>> pairs = unsure_together(state);
+  const std::vector<Two> unsure = unsure_together(state);
   std::vector<Question> questions;
-  for (const auto& pair : pairs) questions.push_back(question(state, {pair.begin(), pair.end()}));
+  questions.reserve(unsure.size());
+  for (const Two& two : unsure) questions.push_back(question(state, {two.links.begin(), two.links.end()}));
   const std::vector<double> heard = answers(state, questions, context);
   double most = log_odds(options_.sure) + kTogether;
   std::array<std::size_t, 2> best{};
   double vouched = 0.0;
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const double odds = odds_[pairs[k][0]] + odds_[pairs[k][1]] + heard[k];
-    if (odds <= most) continue;
-    most = odds;
-    best = pairs[k];
+  for (std::size_t k = 0; k < unsure.size(); ++k) {
+    if (unsure[k].alone + heard[k] <= most) continue;
+    most = unsure[k].alone + heard[k];
+    best = unsure[k].links;
     vouched = heard[k];
   }
   if (best[0] == best[1]) return false;

@@ -78,6 +78,12 @@ class Grower {
     }
   };
 
+  /// Two links that make three groups one.
+  struct Two {
+    std::array<std::size_t, 2> links;
+    double alone;  ///< log-odds of both by themselves
+  };
+
   /// One growth on its way.
   struct State {
     Growth growth;
@@ -100,7 +106,7 @@ class Grower {
   std::vector<double> answers(const State& state, std::vector<Question>& questions, const Context& context);
   bool try_best(State& state);
   bool try_two(State& state, const Context& context);
-  std::vector<std::array<std::size_t, 2>> unsure_together(const State& state) const;
+  std::vector<Two> unsure_together(const State& state) const;
   bool fits(State& state, std::size_t link);
   double overlap_of(std::size_t a, std::size_t b, const Rigid& b_to_a);
   void merge(State& state, std::size_t link, double odds) const;
