@@ -305,10 +305,15 @@ bool Grower::try_two(State& state, const Context& context) {
     list.erase(std::remove_if(list.begin(), list.end(), same), list.end());
   }
   if (!fits(state, best[0])) return true;
-  merge(state, best[0], most);
-  if (!fits(state, best[1])) return true;
-  merge(state, best[1], most);
-  state.growth.vouched += vouched;
+  State both = state;  // neither is sure without the other
+  merge(both, best[0], most);
+  if (!fits(both, best[1])) {
+    state.growth.rejected = std::move(both.growth.rejected);
+    return true;
+  }
+  merge(both, best[1], most);
+  both.growth.vouched += vouched;
+  state = std::move(both);
   return true;
 }
 

@@ -308,6 +308,16 @@ TEST(Constraints, PairsThatMustNotJoinStayApart) {
   EXPECT_FALSE(together);
 }
 
+TEST(Constraints, TwoUnsureJoinsThatMakeAForbiddenPairTouchAreBothLeftOut) {
+  const Corner corner = corner_of(ball());
+  const std::vector<Link> two{ball().true_link(corner.a, corner.b, 0.1),
+                              ball().true_link(corner.b, corner.c, 0.05)};
+  Options options;
+  ASSERT_EQ(run(ball(), two, options).groups, 1);
+  options.constraints.must_not_join = {{corner.a, corner.c}};
+  EXPECT_EQ(run(ball(), two, options).groups, 0);
+}
+
 TEST(Constraints, PairsThatMustJoinDoSoHoweverLowTheScore) {
   const Corner corner = corner_of(ball());
   Options options;
