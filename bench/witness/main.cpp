@@ -61,7 +61,11 @@ class Survey {
       for (const store::Candidate& candidate : run.candidates(pair))
         add({by_id.at(pair.a), by_id.at(pair.b), candidate.pose, candidate.score});
     }
-    if (ask_ == Ask::TwoTogether) ask_of_two();
+    if (ask_ == Ask::TwoTogether) {
+      ask_of_two();
+    } else {
+      for (const Candidate& candidate : candidates_) ask_of(candidate);
+    }
   }
 
   /// Tables of false and of true candidates.
@@ -88,8 +92,6 @@ class Survey {
         PairTruth(pieces_[link.a].fragment(), pieces_[link.b].fragment(), b_to_a).right(link.pose);
     candidates_.push_back({link, right});
     candidates_.push_back({{link.b, link.a, inverse(link.pose), link.score}, right});
-    if (ask_ == Ask::TwoTogether) return;
-    for (const Candidate& candidate : {candidates_.end()[-2], candidates_.end()[-1]}) ask_of(candidate);
   }
 
   void ask_of(const Candidate& candidate) {
