@@ -173,9 +173,23 @@ std::optional<GapField::Sample> GapField::at(const glm::vec3& point, float max_d
   };
   const glm::vec3 flat = face_normals_[hit->face];
   const bool within = std::min({weight.x, weight.y, weight.z}) > kInside && flat != glm::vec3(0.0F);
-  const bool inside = glm::dot(point - hit->point, within ? flat : blend(corner_normals_)) < 0;
-  return Sample{inside ? -hit->distance : hit->distance, blend(facing_normals_.near),
-                blend(facing_normals_.calm), hit->face};
+  const glm::vec3 away = point - hit->point;
+  const glm::vec3 near = blend(facing_normals_.near);
+  const glm::vec3 calm = blend(facing_normals_.calm);
+  const auto behind = [&](const glm::vec3& normal) { return glm::dot(away, normal) < 0; };
+  bool inside = behind(within ? flat : blend(corner_normals_));
+  if (inside != behind(near) || inside != behind(calm)) inside = leaves_surface(point, away, inside);
+  return Sample{inside ? -hit->distance : hit->distance, near, calm, hit->face};
+}
+
+/// Whether a ray first meets the surface from within; `otherwise` where the face met has no reliable normal.
+bool GapField::leaves_surface(const glm::vec3& start, const glm::vec3& direction, bool otherwise) const {
+  const glm::vec3 unit = unit_or_zero(direction);
+  if (unit == glm::vec3(0.0F)) return otherwise;
+  const auto hit = scene_.first_hit(start, unit, 0.0F, std::numeric_limits<float>::max());
+  if (!hit) return false;
+  const glm::vec3 normal = face_normals_[hit->face];
+  return normal == glm::vec3(0.0F) ? otherwise : glm::dot(unit, normal) > 0;
 }
 
 Gaps gaps(const mesh::Mesh& a, const GapField& b, const Rigid& b_to_a, double max_distance) {

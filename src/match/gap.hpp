@@ -37,8 +37,9 @@ class GapField {
   /// The surface's nearest point within max_distance.
   ///
   /// The sign comes from the normal of the feature that is nearest (face, edge or corner), so it is right
-  /// next to sharp edges too.  Beyond the border of an open surface it tells on which side of the border's
-  /// faces the point lies.
+  /// next to sharp edges too; where the wider surroundings say otherwise (slivers that are folded over turn
+  /// that normal, however small they are), a ray away from the surface decides.  Beyond the border of
+  /// an open surface it tells on which side of the border's faces the point lies.
   /// \param point         in the surface's own frame (relative to surface.origin)
   /// \param max_distance  mesh units
   /// \source Baerentzen and Aanaes 2005, angle-weighted pseudonormals.  Deviation: an edge's normal is the
@@ -48,6 +49,8 @@ class GapField {
   const mesh::Mesh& surface() const { return *surface_; }
 
  private:
+  bool leaves_surface(const glm::vec3& start, const glm::vec3& direction, bool otherwise) const;
+
   const mesh::Mesh* surface_;
   mesh::RayScene scene_;
   std::vector<glm::vec3> corner_normals_;  ///< angle-weighted, one a vertex

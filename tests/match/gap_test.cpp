@@ -103,6 +103,22 @@ TEST(Gap, SignHoldsNextToSharpEdgesAndCorners) {
   }
 }
 
+TEST(Gap, ASliverThatIsFoldedOverDoesNotTurnTheSign) {
+  mesh::Mesh block = cube();
+  block.vertices.emplace_back(1.0F, 1.0001F, 0.0F);  // 8, a little beyond the edge from 3 to 7
+  block.faces[10] = {1, 3, 8};                        // of {1, 3, 5} and {3, 7, 5}: the first goes with it
+  block.faces[11] = {1, 8, 5};
+  block.faces.insert(block.faces.end(), {{8, 7, 5}, {3, 7, 8}});  // the last looks inwards
+  const GapField field(block);
+  Random random(11);
+  for (int k = 0; k < 500; ++k) {
+    const glm::vec3 outside(random.uniform(1.001, 3), random.uniform(1.001, 3), random.uniform(-0.9, 0.9));
+    EXPECT_GT(field.at(outside, 10.0F)->gap, 0.0F) << outside.x << ' ' << outside.y << ' ' << outside.z;
+    const glm::vec3 inside(random.uniform(0.5, 0.99), random.uniform(0.5, 0.99), random.uniform(-0.9, 0.9));
+    EXPECT_LT(field.at(inside, 10.0F)->gap, 0.0F) << inside.x << ' ' << inside.y << ' ' << inside.z;
+  }
+}
+
 TEST(Gap, DoesNotChangeWhenBothScansLieFarAway) {
   mesh::Mesh a = plane(8, 0, true);
   mesh::Mesh b = plane(5, 0, false);
