@@ -213,8 +213,11 @@ HWY_NOINLINE void draw_alone(const Corners& c, IntM lanes, const Canvas& canvas)
   }
 }
 
+/// The sides of triangles that are drawn, by the sign of their doubled areas.
+enum class Sides { Both, Positive, Negative };
+
 /// Draws one vector of triangles whose first corner's x starts at `at`.
-HWY_INLINE void draw_vector(const float* at, const Projection& projection, const Canvas& canvas,
+HWY_INLINE void draw_vector(const float* at, Sides sides, const Projection& projection, const Canvas& canvas,
                             Fragments& fragments) {
   const Ints d;
   Corners c;
@@ -236,7 +239,12 @@ HWY_INLINE void draw_vector(const float* at, const Projection& projection, const
   if (!hn::AllTrue(d, hn::Or(fits, hn::Not(visible)))) draw_alone(c, hn::AndNot(fits, visible), canvas);
   const auto area2 = hn::Sub(hn::Mul(hn::Sub(c.x1, c.x0), hn::Sub(c.y2, c.y0)),
                              hn::Mul(hn::Sub(c.x2, c.x0), hn::Sub(c.y1, c.y0)));
-  const auto small = hn::And(hn::And(fits, visible), hn::Ne(area2, hn::Zero(d)));
+  const auto zero = hn::Zero(d);
+  const auto turned_here = sides == Sides::Both       ? hn::Ne(area2, zero)
+                           : sides == Sides::Positive ? hn::Gt(area2, zero)
+                                                      : hn::Lt(area2, zero);
+  const auto small = hn::And(hn::And(fits, visible), turned_here);
+  if (hn::AllFalse(d, small)) return;
   const std::size_t count = collect(c, area2, box, small, canvas.width, fragments);
   for (std::size_t k = 0; k < count; ++k) {
     // By value, so that the compiler takes a minimum instead of a branch that nothing can predict.
@@ -251,14 +259,26 @@ const char* target_name() {
   return hwy::TargetName(HWY_TARGET);
 }
 
+void draw_block(const float* block, Sides sides, const Projection& projection, const Canvas& canvas,
+                Fragments& fragments) {
+  for (std::size_t lane = 0; lane < kSoupBlock; lane += hn::Lanes(Floats())) {
+    draw_vector(block + lane, sides, projection, canvas, fragments);
+  }
+}
+
 void draw_blocks(const TriangleSoup& soup, const Projection& projection, const Canvas& canvas) {
   Fragments fragments;
-  const std::size_t lanes = hn::Lanes(Floats());
+  const Gaze gaze = gaze_of(projection);
+  const bool looks = gaze.along != glm::vec3(0.0F);
+  const Sides front = !looks ? Sides::Both : gaze.mirrored ? Sides::Positive : Sides::Negative;
   const float* block = soup.blocks.data();
-  for (std::size_t k = 0; k < soup.block_count(); ++k, block += 9 * kSoupBlock) {
-    for (std::size_t lane = 0; lane < kSoupBlock; lane += lanes) {
-      draw_vector(block + lane, projection, canvas, fragments);
-    }
+  for (const TriangleSoup::Cone& cone : soup.cones) {
+    const bool looks_away = glm::dot(cone.axis, gaze.along) > cone.sine;
+    if (!looks_away) draw_block(block, front, projection, canvas, fragments);
+    block += 9 * kSoupBlock;
+  }
+  for (const float* end = soup.blocks.data() + soup.blocks.size(); block != end; block += 9 * kSoupBlock) {
+    draw_block(block, Sides::Both, projection, canvas, fragments);
   }
 }
 

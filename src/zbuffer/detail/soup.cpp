@@ -1,15 +1,19 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "zbuffer/detail/drawable.hpp"
+#include "zbuffer/detail/outward.hpp"
 #include "zbuffer/detail/raster_kernel.hpp"
 
 namespace rejoin::zbuffer::detail {
 namespace {
 
-constexpr float kCells = 1023.0F;  ///< a side of the box, in steps of 10 bits
+constexpr float kCells = 1023.0F;         ///< a side of the box, in steps of 10 bits
+constexpr float kConeRounding = 0.0005F;  ///< by which a cone is wider than its normals, for they are rounded
 
 /// The lowest 10 bits of x, with two free bits before each.
 std::uint32_t spread(std::uint32_t x) {
@@ -19,22 +23,61 @@ std::uint32_t spread(std::uint32_t x) {
   return (x | (x << 2U)) & 0x09249249U;
 }
 
-/// Puts neighbours together (Morton order of the centres).  Triangles that lie close are mostly of one size
-/// and one direction, so those that are drawn in step cover boxes of about the same number of pixels, and
-/// none waits long for the others; a mesh in random order takes half as long again.
-void sort_by_place(std::vector<glm::uvec3>& faces, const mesh::Mesh& mesh, const mesh::Box& box) {
+glm::vec3 normal_of(const mesh::Mesh& mesh, const glm::uvec3& face) {
+  const glm::dvec3 a(mesh.vertices[face.x]);
+  const glm::dvec3 normal =
+      glm::cross(glm::dvec3(mesh.vertices[face.y]) - a, glm::dvec3(mesh.vertices[face.z]) - a);
+  const double length = glm::length(normal);
+  return length > 0.0 ? glm::vec3(normal / length) : glm::vec3(0.0F);
+}
+
+/// Cells of a side of the cube on which normals that look alike share one.
+constexpr float kNormalCells = 4.0F;
+
+/// The same for normals that look alike.
+std::uint32_t direction_of(const glm::vec3& normal) {
+  const glm::vec3 size = glm::abs(normal);
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  if (size[axis] == 0.0F) return 0;
+  const glm::vec2 on_side = glm::vec2(normal[(axis + 1) % 3], normal[(axis + 2) % 3]) / size[axis];
+  const glm::uvec2 cell(glm::clamp((on_side + 1.0F) * (kNormalCells / 2), 0.0F, kNormalCells - 1));
+  const std::uint32_t side = 2U * static_cast<std::uint32_t>(axis) + (normal[axis] < 0 ? 1U : 0U);
+  return (side * 16U + cell.x) * 16U + cell.y;
+}
+
+/// Puts neighbours together (Morton order of the centres), and of those that can only be seen from their front the ones that
+/// look the same way.  Triangles that lie close are mostly of one size and one direction, so those that are drawn in step
+/// cover boxes of about the same number of pixels, and none waits long for the others; a mesh in random order takes half as
+/// long again.
+void sort_by_place(std::vector<glm::uvec3>& faces, const mesh::Mesh& mesh, const mesh::Box& box, bool by_direction) {
   const glm::vec3 extent = box.high - box.low;
   const float longest = std::max({extent.x, extent.y, extent.z, std::numeric_limits<float>::min()});
-  std::vector<std::pair<std::uint32_t, glm::uvec3>> keyed;
+  std::vector<std::pair<std::uint64_t, glm::uvec3>> keyed;
   keyed.reserve(faces.size());
   for (const glm::uvec3& f : faces) {
     const glm::vec3 centre = (mesh.vertices[f.x] - box.low) / 3.0F + (mesh.vertices[f.y] - box.low) / 3.0F +
                              (mesh.vertices[f.z] - box.low) / 3.0F;
     const glm::uvec3 cell(glm::clamp(centre / longest, 0.0F, 1.0F) * kCells);
-    keyed.emplace_back(spread(cell.x) | (spread(cell.y) << 1U) | (spread(cell.z) << 2U), f);
+    const std::uint64_t direction = by_direction ? direction_of(normal_of(mesh, f)) : 0U;
+    keyed.emplace_back(direction << 30U | spread(cell.x) | (spread(cell.y) << 1U) | (spread(cell.z) << 2U), f);
   }
-  std::ranges::stable_sort(keyed, {}, &std::pair<std::uint32_t, glm::uvec3>::first);
-  std::ranges::transform(keyed, faces.begin(), &std::pair<std::uint32_t, glm::uvec3>::second);
+  std::ranges::stable_sort(keyed, {}, &std::pair<std::uint64_t, glm::uvec3>::first);
+  std::ranges::transform(keyed, faces.begin(), &std::pair<std::uint64_t, glm::uvec3>::second);
+}
+
+TriangleSoup::Cone cone_of(const mesh::Mesh& mesh, std::span<const glm::uvec3> faces) {
+  glm::vec3 sum(0.0F);
+  for (const glm::uvec3& face : faces) sum += normal_of(mesh, face);
+  const float length = glm::length(sum);
+  if (length == 0.0F) return {};
+  TriangleSoup::Cone cone{sum / length, 0.0F};
+  float least = 1.0F;
+  for (const glm::uvec3& face : faces) {
+    const glm::vec3 normal = normal_of(mesh, face);
+    if (normal != glm::vec3(0.0F)) least = std::min(least, glm::dot(cone.axis, normal));
+  }
+  cone.sine = least > 0.0F ? std::sqrt(std::max(0.0F, 1.0F - least * least)) + kConeRounding : 2.0F;
+  return cone;
 }
 
 void put(TriangleSoup& soup, std::size_t place, std::size_t corner, const glm::vec3& v) {
@@ -44,22 +87,39 @@ void put(TriangleSoup& soup, std::size_t place, std::size_t corner, const glm::v
   }
 }
 
+/// Adds whole blocks.
+void append(TriangleSoup& soup, std::vector<glm::uvec3> faces, const mesh::Mesh& mesh) {
+  if (faces.empty()) return;
+  const std::size_t before = soup.block_count() * kSoupBlock;
+  const glm::uvec3 filler(faces.back().x);
+  faces.resize((faces.size() + kSoupBlock - 1) / kSoupBlock * kSoupBlock, filler);
+  soup.blocks.resize(soup.blocks.size() + 9 * faces.size());
+  for (std::size_t place = 0; place < faces.size(); ++place) {
+    for (int corner = 0; corner < 3; ++corner) {
+      put(soup, before + place, static_cast<std::size_t>(corner), mesh.vertices[faces[place][corner]]);
+    }
+  }
+}
+
 }  // namespace
 
 TriangleSoup soup_of(const mesh::Mesh& mesh) {
-  std::vector<glm::uvec3> faces = finite_faces(mesh);
+  const std::vector<glm::uvec3> faces = finite_faces(mesh);
   TriangleSoup soup;
   if (faces.empty()) return soup;
   soup.box = box_of(mesh, faces);
-  sort_by_place(faces, mesh, soup.box);
-  const glm::uvec3 filler(faces.back().x);
-  faces.resize((faces.size() + kSoupBlock - 1) / kSoupBlock * kSoupBlock, filler);
-  soup.blocks.resize(9 * faces.size());
-  for (std::size_t place = 0; place < faces.size(); ++place) {
-    for (int corner = 0; corner < 3; ++corner) {
-      put(soup, place, static_cast<std::size_t>(corner), mesh.vertices[faces[place][corner]]);
-    }
+  const std::vector<bool> from_front = seen_from_front(mesh, faces);
+  std::vector<glm::uvec3> one_sided;
+  std::vector<glm::uvec3> two_sided;
+  for (std::size_t f = 0; f < faces.size(); ++f) (from_front[f] ? one_sided : two_sided).push_back(faces[f]);
+  sort_by_place(one_sided, mesh, soup.box, true);
+  sort_by_place(two_sided, mesh, soup.box, false);
+  for (std::size_t at = 0; at < one_sided.size(); at += kSoupBlock) {
+    const std::size_t count = std::min(kSoupBlock, one_sided.size() - at);
+    soup.cones.push_back(cone_of(mesh, std::span(one_sided).subspan(at, count)));
   }
+  append(soup, std::move(one_sided), mesh);
+  append(soup, std::move(two_sided), mesh);
   return soup;
 }
 

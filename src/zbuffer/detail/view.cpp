@@ -35,6 +35,17 @@ Projection projection(const glm::mat3& rotation, const glm::vec2& shift, const g
 
 }  // namespace
 
+Gaze gaze_of(const Projection& projection) {
+  const glm::dmat3 linear(projection.linear);
+  const double volume = glm::determinant(linear);
+  const glm::dvec3 along = glm::cross(glm::dvec3(linear[0][0], linear[1][0], linear[2][0]),
+                                      glm::dvec3(linear[0][1], linear[1][1], linear[2][1])) /
+                           volume;  // with x and y as they are, depth grows by 1
+  const double length = glm::length(along);
+  if (!std::isfinite(length) || length == 0.0) return {};
+  return {glm::vec3(along / length), volume < 0.0};
+}
+
 ViewOptions completed(const mesh::Mesh& a, const mesh::Mesh& b, ViewOptions options) {
   require_faces(a, "fragment A");
   require_faces(b, "fragment B");

@@ -22,6 +22,13 @@ struct Projection {
   }
 };
 
+/// How a projection looks at the fragment.
+struct Gaze {
+  glm::vec3 along{0.0F};  ///< unit direction of growing depth, in the fragment's axes; 0: it looks at nothing, or not clearly
+  bool mirrored = false;
+};
+Gaze gaze_of(const Projection& projection);
+
 /// The options checked and with view_side filled in: 1.3 x the larger diameter where it was not given.
 /// Nothing is clipped in depth: a surface in front of (p) gets a negative depth.
 /// \throws InputError  a mesh without faces, a resolution outside 8 .. 2048, a view side or centre that is
