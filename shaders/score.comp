@@ -16,8 +16,8 @@ layout(std430, binding = 0) readonly buffer Meshes { float corners[]; };
 layout(std430, binding = 1) readonly buffer Poses { vec4 rows[]; };
 layout(std430, binding = 2) writeonly buffer Records { uvec4 records[]; };
 
-uniform uvec2 mesh_a;   // first word, count of triangles
-uniform uvec2 mesh_b;
+uniform uvec3 mesh_a;   // first word, count of triangles, how many of them (the first) need not be drawn where they look away
+uniform uvec3 mesh_b;
 uniform uint pose_count;
 uniform uint probe_steps;   // a few
 
@@ -75,7 +75,7 @@ struct Triangle {
   bool narrow;  // edge functions fit into 32 bits
 };
 
-vec3 corner(uvec2 mesh, uint triangle, uint which, vec4 x, vec4 y, vec4 z) {
+vec3 corner(uvec3 mesh, uint triangle, uint which, vec4 x, vec4 y, vec4 z) {
   const uint at = mesh.x + 3u * which * mesh.y + triangle;
   const vec3 p = vec3(corners[at], corners[at + mesh.y], corners[at + 2u * mesh.y]);
   precise vec3 placed = ((vec3(x.x, y.x, z.x) * p.x + vec3(x.y, y.y, z.y) * p.y) + vec3(x.z, y.z, z.z) * p.z) +
@@ -83,7 +83,7 @@ vec3 corner(uvec2 mesh, uint triangle, uint which, vec4 x, vec4 y, vec4 z) {
   return placed;
 }
 
-Triangle triangle_of(uvec2 mesh, uint index, vec4 x, vec4 y, vec4 z) {
+Triangle triangle_of(uvec3 mesh, uint index, vec4 x, vec4 y, vec4 z) {
   const vec3 p = corner(mesh, index, 0u, x, y, z);
   const vec3 q = corner(mesh, index, 1u, x, y, z);
   const vec3 r = corner(mesh, index, 2u, x, y, z);
@@ -115,10 +115,15 @@ int edge_at(ivec2 start, ivec2 along, ivec2 point) {
   return along.x * (point.y - start.y) - along.y * (point.x - start.x);
 }
 
-void draw_narrow(Triangle t, uint map) {
+// Twice the area of a narrow triangle, above 0 where it runs counter-clockwise.
+int area_of(Triangle t) {
   const ivec2 pq = t.q - t.p;
   const ivec2 pr = t.r - t.p;
-  const int area = pq.x * pr.y - pr.x * pq.y;
+  return pq.x * pr.y - pr.x * pq.y;
+}
+
+void draw_narrow(Triangle t, uint map) {
+  const int area = area_of(t);
   if (area == 0) return;
   if (area < 0) {   // seen from behind
     const ivec2 swap = t.q;
@@ -181,13 +186,15 @@ void draw_wide(Triangle t, uint map, int first, int stride) {
   }
 }
 
-void draw(uvec2 mesh, uint row, uint map) {
+void draw(uvec3 mesh, uint row, uint map) {
   const vec4 x = rows[row];
   const vec4 y = rows[row + 1u];
   const vec4 z = rows[row + 2u];
+  const bool front_is_positive = dot(cross(x.xyz, y.xyz), z.xyz) < 0.0;
   for (uint index = gl_LocalInvocationIndex; index < mesh.y; index += LOCAL_SIZE) {
     const Triangle t = triangle_of(mesh, index, x, y, z);
     if (t.size.x <= 0 || t.size.y <= 0) continue;
+    if (index < mesh.z && t.narrow && (area_of(t) > 0) != front_is_positive) continue;   // looks away, or has no area
     if (!t.narrow || t.size.x * t.size.y > LARGE_PIXELS) {
       const uint place = atomicAdd(large_count, 1u);
       if (place < LARGE_LIST) {

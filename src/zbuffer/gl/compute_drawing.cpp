@@ -70,6 +70,8 @@ class ComputeDrawing : public Drawing {
     append_corners(b, words);
     count_a_ = static_cast<GLuint>(a.faces.size());
     count_b_ = static_cast<GLuint>(b.faces.size());
+    front_only_a_ = static_cast<GLuint>(a.front_only);
+    front_only_b_ = static_cast<GLuint>(b.front_only);
     const std::size_t map_bytes = 8 * static_cast<std::size_t>(resolution) * resolution;
     groups_ = std::clamp<std::size_t>(std::min(engine.limits().storage_bytes, kMostMapBytes) / map_bytes, 1,
                                       tuning_.groups);
@@ -125,8 +127,8 @@ class ComputeDrawing : public Drawing {
     const GLuint program =
         engine_.program({{GL_COMPUTE_SHADER, {"compare.glsl", "score.comp"}}}, defines(in_shared_memory));
     gl.UseProgram(program);
-    gl.Uniform2ui(gl.GetUniformLocation(program, "mesh_a"), 0, count_a_);
-    gl.Uniform2ui(gl.GetUniformLocation(program, "mesh_b"), first_b_, count_b_);
+    gl.Uniform3ui(gl.GetUniformLocation(program, "mesh_a"), 0, count_a_, front_only_a_);
+    gl.Uniform3ui(gl.GetUniformLocation(program, "mesh_b"), first_b_, count_b_, front_only_b_);
     gl.Uniform1ui(gl.GetUniformLocation(program, "pose_count"), static_cast<GLuint>(poses.size()));
     gl.Uniform1ui(gl.GetUniformLocation(program, "probe_steps"), 3);
     if (!in_shared_memory) {
@@ -172,6 +174,8 @@ class ComputeDrawing : public Drawing {
   GLuint first_b_ = 0;
   GLuint count_a_ = 0;
   GLuint count_b_ = 0;
+  GLuint front_only_a_ = 0;
+  GLuint front_only_b_ = 0;
   std::size_t groups_ = 1;
   std::size_t poses_a_dispatch_ = 1;
   Buffer meshes_;

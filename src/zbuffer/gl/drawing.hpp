@@ -17,6 +17,7 @@ namespace rejoin::zbuffer::gl {
 struct Surface {
   std::vector<glm::vec3> vertices;  ///< mesh units, relative to the mesh's origin
   std::vector<glm::uvec3> faces;    ///< without those that have a non-finite corner
+  std::size_t front_only = 0;       ///< so many, the first, need not be drawn where they look away
 };
 
 /// (x, y in pixels, depth in mesh units) = rows * (corner, 1).
@@ -24,6 +25,11 @@ struct Placement {
   glm::vec4 x;
   glm::vec4 y;
   glm::vec4 depth;
+
+  /// Faces that look at the viewer run counter-clockwise (x to the right, y upwards).
+  bool front_is_counterclockwise() const {
+    return glm::dot(glm::cross(glm::vec3(x), glm::vec3(y)), glm::vec3(depth)) < 0.0F;
+  }
 };
 
 struct PairPlacement {

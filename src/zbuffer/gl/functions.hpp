@@ -37,6 +37,7 @@ namespace rejoin::zbuffer::gl {
   X(Enable, PFNGLENABLEPROC)                                   \
   X(EnableVertexAttribArray, PFNGLENABLEVERTEXATTRIBARRAYPROC) \
   X(FramebufferTextureLayer, PFNGLFRAMEBUFFERTEXTURELAYERPROC) \
+  X(FrontFace, PFNGLFRONTFACEPROC)                             \
   X(GenBuffers, PFNGLGENBUFFERSPROC)                           \
   X(GenFramebuffers, PFNGLGENFRAMEBUFFERSPROC)                 \
   X(GenTextures, PFNGLGENTEXTURESPROC)                         \
@@ -61,7 +62,7 @@ namespace rejoin::zbuffer::gl {
   X(TexStorage3D, PFNGLTEXSTORAGE3DPROC)                       \
   X(Uniform1f, PFNGLUNIFORM1FPROC)                             \
   X(Uniform1ui, PFNGLUNIFORM1UIPROC)                           \
-  X(Uniform2ui, PFNGLUNIFORM2UIPROC)                           \
+  X(Uniform3ui, PFNGLUNIFORM3UIPROC)                           \
   X(Uniform4fv, PFNGLUNIFORM4FVPROC)                           \
   X(UseProgram, PFNGLUSEPROGRAMPROC)                           \
   X(VertexAttribPointer, PFNGLVERTEXATTRIBPOINTERPROC)         \

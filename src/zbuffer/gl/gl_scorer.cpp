@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "zbuffer/detail/drawable.hpp"
+#include "zbuffer/detail/outward.hpp"
 #include "zbuffer/detail/view.hpp"
 #include "zbuffer/gl/drawing.hpp"
 
@@ -13,13 +15,16 @@ namespace rejoin::zbuffer::gl {
 namespace {
 
 Surface surface_of(const mesh::Mesh& mesh) {
+  const std::vector<glm::uvec3> faces = detail::finite_faces(mesh);
+  const std::vector<bool> from_front = detail::seen_from_front(mesh, faces);
   Surface surface{mesh.vertices, {}};
-  const auto finite = [&](std::uint32_t index) {
-    const glm::vec3& v = mesh.vertices[index];
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-  };
-  std::copy_if(mesh.faces.begin(), mesh.faces.end(), std::back_inserter(surface.faces),
-               [&](const glm::uvec3& face) { return finite(face.x) && finite(face.y) && finite(face.z); });
+  surface.faces.reserve(faces.size());
+  for (const bool wanted : {true, false}) {
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      if (from_front[f] == wanted) surface.faces.push_back(faces[f]);
+    }
+    if (wanted) surface.front_only = surface.faces.size();
+  }
   return surface;
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "core/error.hpp"
@@ -17,6 +18,7 @@ struct Drawable {
   Buffer vertices;
   Buffer faces;
   GLsizei indices = 0;
+  GLsizei front_only = 0;  // of the indices
   VertexArray layout;
 };
 
@@ -29,6 +31,7 @@ Drawable make_drawable(const Functions& gl, const Surface& surface) {
   gl.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3), nullptr);
   made.faces = make_buffer(gl, GL_ELEMENT_ARRAY_BUFFER, std::span<const glm::uvec3>(surface.faces));
   made.indices = static_cast<GLsizei>(surface.faces.size() * 3);
+  made.front_only = static_cast<GLsizei>(surface.front_only * 3);
   gl.BindVertexArray(0);
   return made;
 }
@@ -120,7 +123,13 @@ class PipelineDrawing : public Drawing {
     gl.ClearBufferfv(GL_COLOR, 0, kFar.data());
     gl.Uniform4fv(rows, 3, &placement.x.x);
     gl.BindVertexArray(fragment.layout.name());
-    gl.DrawElements(GL_TRIANGLES, fragment.indices, GL_UNSIGNED_INT, nullptr);
+    gl.FrontFace(placement.front_is_counterclockwise() ? GL_CCW : GL_CW);
+    gl.Enable(GL_CULL_FACE);
+    gl.DrawElements(GL_TRIANGLES, fragment.front_only, GL_UNSIGNED_INT, nullptr);
+    gl.Disable(GL_CULL_FACE);
+    const auto rest = static_cast<std::uintptr_t>(fragment.front_only) * sizeof(GLuint);
+    gl.DrawElements(GL_TRIANGLES, fragment.indices - fragment.front_only, GL_UNSIGNED_INT,
+                    reinterpret_cast<const void*>(rest));  // NOLINT(performance-no-int-to-ptr): an offset, as OpenGL has it
   }
 
   void compare(std::size_t count) {
