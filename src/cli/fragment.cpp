@@ -14,7 +14,7 @@ constexpr std::size_t kLeast = 4;  // faces or points; fewer enclose nothing
 
 mesh::Mesh load_scan(const std::string& path, Console& console, mesh::Weld weld = mesh::Weld::Places) {
   mesh::Loaded loaded = mesh::load(path, weld);
-  for (const std::string& warning : loaded.warnings) console.warning(fmt::format("{}: {}", path, warning));
+  for (const std::string& warning : loaded.warnings) console.warning(warning);
   const bool cloud = loaded.mesh.is_cloud();
   const std::size_t count = cloud ? loaded.mesh.vertices.size() : loaded.mesh.faces.size();
   if (count < kLeast) {

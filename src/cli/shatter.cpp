@@ -74,7 +74,7 @@ class ShatterCommand final : public Command {
     options_.noise = noise_ / 100.0;
     options_.spacing = spacing_ / 100.0;
     const mesh::Loaded loaded = mesh::load(path_);
-    for (const std::string& warning : loaded.warnings) console.warning(fmt::format("{}: {}", path_, warning));
+    for (const std::string& warning : loaded.warnings) console.warning(warning);
     const shatter::Shattered shattered = shatter::shatter(path_, loaded.mesh, options_, context);
     console.end_progress();
     if (shattered.cancelled) return kInterrupted;

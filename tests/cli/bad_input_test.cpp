@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <string>
+#include <vector>
 
 #include "run_program.hpp"
 
@@ -79,6 +81,21 @@ INSTANTIATE_TEST_SUITE_P(
                       BadFile{"UnknownExtension", "scan.xyzzy", kTetrahedron},
                       BadFile{"NoExtension", "scan", kTetrahedron}),
     [](const auto& info) { return std::string(info.param.name); });
+
+TEST(RepairedFileTest, AWarningNamesTheFileOnce) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "inside_out.ply";
+  std::string text = kTetrahedron;
+  text.resize(text.find("3 0 2 1"));
+  write_file(path, text + "3 0 1 2\n3 0 3 1\n3 1 3 2\n3 0 2 3\n");
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"facets", path}, {"shatter", path, "--out", folder / "pieces"}}) {
+    const Finished finished = run(arguments);
+    EXPECT_NE(finished.err.find("warning: " + path + ": was inside out, turned all faces\n"),
+              std::string::npos)
+        << finished.err;
+  }
+}
 
 TEST(BadPlace, MissingFileIsNamed) {
   expect_failure(run({"facets", "no/such/scan.ply"}), "no/such/scan.ply");

@@ -106,7 +106,7 @@ TEST(Gap, SignHoldsNextToSharpEdgesAndCorners) {
 TEST(Gap, ASliverThatIsFoldedOverDoesNotTurnTheSign) {
   mesh::Mesh block = cube();
   block.vertices.emplace_back(1.0F, 1.0001F, 0.0F);  // 8, a little beyond the edge from 3 to 7
-  block.faces[10] = {1, 3, 8};                        // of {1, 3, 5} and {3, 7, 5}: the first goes with it
+  block.faces[10] = {1, 3, 8};                       // of {1, 3, 5} and {3, 7, 5}: the first goes with it
   block.faces[11] = {1, 8, 5};
   block.faces.insert(block.faces.end(), {{8, 7, 5}, {3, 7, 8}});  // the last looks inwards
   const GapField field(block);

@@ -74,7 +74,8 @@ TEST(SeenFromFront, LeavesTheViewAsItIs) {
         together(bumpy, inside_out(test::icosphere(1.5F, 2))), together(bumpy, test::icosphere(0.4F, 2))}) {
     for (int k = 0; k < 12; ++k) {
       glm::mat3 linear = 20.0F * test::random_rotation(random);
-      if (k % 2 == 1) linear = glm::mat3({1, 0, 0}, {0, 1, 0}, {0, 0, -0.05F}) * linear;  // as ViewPair looks at B
+      if (k % 2 == 1)
+        linear = glm::mat3({1, 0, 0}, {0, 1, 0}, {0, 0, -0.05F}) * linear;  // as ViewPair looks at B
       const glm::vec3 offset(34.3F, 33.1F, 2.0F);
       DepthMap expected(70, 70);
       std::vector<glm::vec3> points;
@@ -94,9 +95,9 @@ TEST(SeenFromFront, LeavesTheViewAsItIs) {
 TEST(SeenFromFront, HalfOfASphereIsNotEvenLookedAt) {
   const TriangleSoup soup = soup_of(test::icosphere(1.0F, 4));
   const Gaze gaze = gaze_of({glm::mat3(1.0F), glm::vec3(0.0F)});
-  const auto skipped = std::count_if(soup.cones.begin(), soup.cones.end(), [&](const TriangleSoup::Cone& cone) {
-    return glm::dot(cone.axis, gaze.along) > cone.sine;
-  });
+  const auto skipped = std::count_if(
+      soup.cones.begin(), soup.cones.end(),
+      [&](const TriangleSoup::Cone& cone) { return glm::dot(cone.axis, gaze.along) > cone.sine; });
   EXPECT_EQ(soup.cones.size(), soup.block_count());
   EXPECT_GT(static_cast<double>(skipped), 0.35 * static_cast<double>(soup.cones.size()));
   EXPECT_LT(static_cast<double>(skipped), 0.5 * static_cast<double>(soup.cones.size()));

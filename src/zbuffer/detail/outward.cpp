@@ -30,7 +30,8 @@ class Edges {
     bool up;
   };
 
-  Edges(std::size_t vertices, std::span<const glm::uvec3> faces) : start_(vertices + 1), ends_(3 * faces.size()) {
+  Edges(std::size_t vertices, std::span<const glm::uvec3> faces)
+      : start_(vertices + 1), ends_(3 * faces.size()) {
     for_each(faces, [&](std::uint32_t lower, End) { ++start_[lower + 1]; });
     std::partial_sum(start_.begin(), start_.end(), start_.begin());
     std::vector<std::size_t> next(start_.begin(), start_.end() - 1);

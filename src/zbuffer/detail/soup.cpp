@@ -49,7 +49,8 @@ std::uint32_t direction_of(const glm::vec3& normal) {
 /// look the same way.  Triangles that lie close are mostly of one size and one direction, so those that are drawn in step
 /// cover boxes of about the same number of pixels, and none waits long for the others; a mesh in random order takes half as
 /// long again.
-void sort_by_place(std::vector<glm::uvec3>& faces, const mesh::Mesh& mesh, const mesh::Box& box, bool by_direction) {
+void sort_by_place(std::vector<glm::uvec3>& faces, const mesh::Mesh& mesh, const mesh::Box& box,
+                   bool by_direction) {
   const glm::vec3 extent = box.high - box.low;
   const float longest = std::max({extent.x, extent.y, extent.z, std::numeric_limits<float>::min()});
   std::vector<std::pair<std::uint64_t, glm::uvec3>> keyed;
@@ -59,7 +60,8 @@ void sort_by_place(std::vector<glm::uvec3>& faces, const mesh::Mesh& mesh, const
                              (mesh.vertices[f.z] - box.low) / 3.0F;
     const glm::uvec3 cell(glm::clamp(centre / longest, 0.0F, 1.0F) * kCells);
     const std::uint64_t direction = by_direction ? direction_of(normal_of(mesh, f)) : 0U;
-    keyed.emplace_back(direction << 30U | spread(cell.x) | (spread(cell.y) << 1U) | (spread(cell.z) << 2U), f);
+    keyed.emplace_back(direction << 30U | spread(cell.x) | (spread(cell.y) << 1U) | (spread(cell.z) << 2U),
+                       f);
   }
   std::ranges::stable_sort(keyed, {}, &std::pair<std::uint64_t, glm::uvec3>::first);
   std::ranges::transform(keyed, faces.begin(), &std::pair<std::uint64_t, glm::uvec3>::second);

@@ -24,7 +24,8 @@ struct Projection {
 
 /// How a projection looks at the fragment.
 struct Gaze {
-  glm::vec3 along{0.0F};  ///< unit direction of growing depth, in the fragment's axes; 0: it looks at nothing, or not clearly
+  glm::vec3 along{
+      0.0F};  ///< unit direction of growing depth, in the fragment's axes; 0: it looks at nothing, or not clearly
   bool mirrored = false;
 };
 Gaze gaze_of(const Projection& projection);

@@ -129,7 +129,8 @@ class PipelineDrawing : public Drawing {
     gl.Disable(GL_CULL_FACE);
     const auto rest = static_cast<std::uintptr_t>(fragment.front_only) * sizeof(GLuint);
     gl.DrawElements(GL_TRIANGLES, fragment.indices - fragment.front_only, GL_UNSIGNED_INT,
-                    reinterpret_cast<const void*>(rest));  // NOLINT(performance-no-int-to-ptr): an offset, as OpenGL has it
+                    reinterpret_cast<const void*>(
+                        rest));  // NOLINT(performance-no-int-to-ptr): an offset, as OpenGL has it
   }
 
   void compare(std::size_t count) {
