@@ -128,9 +128,9 @@ class PipelineDrawing : public Drawing {
     gl.DrawElements(GL_TRIANGLES, fragment.front_only, GL_UNSIGNED_INT, nullptr);
     gl.Disable(GL_CULL_FACE);
     const auto rest = static_cast<std::uintptr_t>(fragment.front_only) * sizeof(GLuint);
-    gl.DrawElements(GL_TRIANGLES, fragment.indices - fragment.front_only, GL_UNSIGNED_INT,
-                    reinterpret_cast<const void*>(
-                        rest));  // NOLINT(performance-no-int-to-ptr): an offset, as OpenGL has it
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL takes the offset so
+    const void* const offset = reinterpret_cast<const void*>(rest);
+    gl.DrawElements(GL_TRIANGLES, fragment.indices - fragment.front_only, GL_UNSIGNED_INT, offset);
   }
 
   void compare(std::size_t count) {
