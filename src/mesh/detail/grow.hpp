@@ -11,7 +11,7 @@ namespace rejoin::mesh::detail {
 
 struct GrowOptions {
   double spacing = 0;         ///< sample spacing, mesh units
-  float cone_deg = 40.0F;     ///< normals of a facet stay within this angle of its mean
+  float cone_deg = 35.0F;     ///< normals of a facet stay within this angle of its mean
   float step_deg = 30.0F;     ///< neighbours across a facet differ by less than this
   std::size_t smallest = 20;  ///< smaller facets go to the neighbour they fit best
 };
