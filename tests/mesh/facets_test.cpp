@@ -133,6 +133,21 @@ TEST(Facets, BoxHasSixSidesWithTheirAreasAndNormals) {
   }
 }
 
+TEST(Facets, BreaksThatMeetAtABluntEdgeAreTwo) {
+  const double lean = 18.75 * kPi / 180.0;  // to both sides of the ridge: the breaks meet at 37.5 degrees
+  const Mesh roof = box({60, 60, 30}, 30, [&](float x, float) {
+    return (30.0F - std::abs(x - 30.0F)) * static_cast<float>(std::tan(lean));
+  });
+  int up = 0;
+  for (const Facet& facet : segment(roof).facets) {
+    if (facet.normal.z < 0.5) continue;
+    ++up;
+    EXPECT_NEAR(facet.area, 60 * 30 / std::cos(lean), 0.2 * 60 * 30);  // the edge goes to one of them
+    EXPECT_NEAR(std::abs(facet.normal.x), std::sin(lean), std::sin(3.0 * kPi / 180));
+  }
+  EXPECT_EQ(up, 2);
+}
+
 TEST(Facets, RoughSideIsTheRoughest) {
   const auto rough = [](float x, float y) {
     return 0.25F * std::sin(2.1F * x + 0.3F) * std::sin(1.7F * y + x);
