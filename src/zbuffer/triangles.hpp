@@ -17,7 +17,8 @@ class Triangles {
   explicit Triangles(const mesh::Mesh& mesh);
 
   /// Draws the points linear * p + offset: x, y in pixel coordinates of the map, z = distance.  Covers exactly what draw()
-  /// covers; depths differ by rounding only.
+  /// covers, but for closed surfaces that pass through themselves: what they enclose inside out is seen from its far side;
+  /// depths differ by rounding only.
   void draw(const glm::mat3& linear, const glm::vec3& offset, DepthMap& map) const;
 
  private:

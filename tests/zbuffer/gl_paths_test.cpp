@@ -100,6 +100,25 @@ TEST_P(GlPaths, PipelineAgreesToItsSubPixelGrid) {
   }
 }
 
+/// What may and what may not be left out where it looks away, in one mesh.
+TEST_P(GlPaths, OpenClosedAndInsideOutPartsAreDrawnAsInTheReference) {
+  const mesh::Mesh patch = test::height_field(0.5F, 12, [](float x, float y) { return 0.2F * x * y; });
+  const mesh::Mesh ball = test::bumpy_sphere(2, 4);
+  const mesh::Mesh a = test::together(test::together(test::moved(patch, {0, 0.3F, 1.1F}), ball),
+                                      test::inside_out(test::moved(ball, {0.9F, 0, 0})));
+  const mesh::Mesh b = test::bumpy_sphere(2, 5);
+  const ViewOptions options{.resolution = kResolution, .view_side = 4.0};
+  const auto poses = test::random_poses(12, 35);
+  const auto truth = score(*make_scorer(Backend::Reference, a, b, options), poses);
+  expect_same_pixels(score(*scorer(Path::ComputeBuffer, a, b, options), poses), truth);
+  const auto pipeline = score(*scorer(Path::Pipeline, a, b, options), poses);
+  for (std::size_t k = 0; k < poses.size(); ++k) {
+    // As above, but each map has a tenth of the pixels, so silhouettes weigh three times as much.
+    EXPECT_NEAR(pipeline[k].error, truth[k].error, 0.03 * truth[k].error);
+    EXPECT_NEAR(pipeline[k].covered_a, truth[k].covered_a, 0.006 * truth[k].covered_a);
+  }
+}
+
 TEST_P(GlPaths, FewHugeTrianglesAndManySmallOnesScoreAsOnTheCpu) {
   const mesh::Mesh huge = test::height_field(40.0F, 1, [](float x, float y) { return 0.1F * x + 0.05F * y; });
   const mesh::Mesh fine = test::bumpy_sphere(5, 7);  // 20,480 faces, most without a pixel

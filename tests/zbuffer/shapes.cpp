@@ -103,6 +103,23 @@ mesh::Mesh turned_round(mesh::Mesh mesh) {
   return mesh;
 }
 
+mesh::Mesh inside_out(mesh::Mesh mesh) {
+  for (glm::uvec3& face : mesh.faces) std::swap(face.y, face.z);
+  return mesh;
+}
+
+mesh::Mesh moved(mesh::Mesh mesh, const glm::vec3& by) {
+  for (glm::vec3& vertex : mesh.vertices) vertex += by;
+  return mesh;
+}
+
+mesh::Mesh together(mesh::Mesh a, const mesh::Mesh& b) {
+  const auto first = static_cast<std::uint32_t>(a.vertices.size());
+  a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
+  for (const glm::uvec3& face : b.faces) a.faces.push_back(face + first);
+  return a;
+}
+
 glm::mat3 random_rotation(Random& random) {
   glm::dvec4 q(random.normal(), random.normal(), random.normal(), random.normal());
   q /= glm::length(q);

@@ -27,6 +27,14 @@ mesh::Mesh step(float half, float rise);
 /// The mesh after a half turn about Y: as the counterpart of itself it stands before (p).
 mesh::Mesh turned_round(mesh::Mesh mesh);
 
+/// The mesh with every face wound the other way.
+mesh::Mesh inside_out(mesh::Mesh mesh);
+
+mesh::Mesh moved(mesh::Mesh mesh, const glm::vec3& by);
+
+/// Both in one mesh, a's faces first.
+mesh::Mesh together(mesh::Mesh a, const mesh::Mesh& b);
+
 /// Uniform over all rotations (a random unit quaternion).
 glm::mat3 random_rotation(Random& random);
 

@@ -1,17 +1,20 @@
-/// Which faces of a mesh can only be seen from their front.
+/// Which faces of a mesh need not be drawn where they look away.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "mesh/mesh.hpp"
 
 namespace rejoin::zbuffer::detail {
 
-/// True for the faces of closed components (each edge has two faces, wound the same way) that enclose a positive volume.
-/// Whoever looks from outside meets such a component from its front first, so faces that look away hide nothing.  Where a
-/// component passes through itself, places that it encloses inside out are an exception.
-/// \param faces  of the mesh, their corners finite
-std::vector<bool> seen_from_front(const mesh::Mesh& mesh, std::span<const glm::uvec3> faces);
+/// The faces whose corners are finite, each kind in the order of the mesh.
+struct SidedFaces {
+  /// Of closed components (each edge has two faces, wound the same way) that enclose a positive volume.  Whoever looks from
+  /// outside meets such a component from its front first, so faces that look away hide nothing.  Where a component passes
+  /// through itself, places that it encloses inside out are an exception.
+  std::vector<glm::uvec3> front_only;
+  std::vector<glm::uvec3> both;  ///< all others
+};
+SidedFaces sided_faces(const mesh::Mesh& mesh);
 
 }  // namespace rejoin::zbuffer::detail

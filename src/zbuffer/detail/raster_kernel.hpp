@@ -34,8 +34,8 @@ struct TriangleSoup {
 
 TriangleSoup soup_of(const mesh::Mesh& mesh);
 
-/// Draws all triangles, nearest depth wins.  Covers exactly what draw() covers; depths differ by rounding
-/// only.  The same bits on every processor.
+/// Draws all triangles but those that only their front can be seen of and that look away; nearest depth wins.  Covers
+/// exactly what draw() covers, with the exception of sided_faces(); depths differ by rounding only.  The same bits on every processor.
 void draw_soup(const TriangleSoup& soup, const Projection& projection, const Canvas& canvas);
 
 /// Name of the instructions that draw_soup uses here: "AVX3", "NEON", ...

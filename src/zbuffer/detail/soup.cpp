@@ -106,22 +106,17 @@ void append(TriangleSoup& soup, std::vector<glm::uvec3> faces, const mesh::Mesh&
 }  // namespace
 
 TriangleSoup soup_of(const mesh::Mesh& mesh) {
-  const std::vector<glm::uvec3> faces = finite_faces(mesh);
+  SidedFaces faces = sided_faces(mesh);
   TriangleSoup soup;
-  if (faces.empty()) return soup;
-  soup.box = box_of(mesh, faces);
-  const std::vector<bool> from_front = seen_from_front(mesh, faces);
-  std::vector<glm::uvec3> one_sided;
-  std::vector<glm::uvec3> two_sided;
-  for (std::size_t f = 0; f < faces.size(); ++f) (from_front[f] ? one_sided : two_sided).push_back(faces[f]);
-  sort_by_place(one_sided, mesh, soup.box, true);
-  sort_by_place(two_sided, mesh, soup.box, false);
-  for (std::size_t at = 0; at < one_sided.size(); at += kSoupBlock) {
-    const std::size_t count = std::min(kSoupBlock, one_sided.size() - at);
-    soup.cones.push_back(cone_of(mesh, std::span(one_sided).subspan(at, count)));
+  soup.box = box_of(mesh, finite_faces(mesh));
+  sort_by_place(faces.front_only, mesh, soup.box, true);
+  sort_by_place(faces.both, mesh, soup.box, false);
+  for (std::size_t at = 0; at < faces.front_only.size(); at += kSoupBlock) {
+    const std::size_t count = std::min(kSoupBlock, faces.front_only.size() - at);
+    soup.cones.push_back(cone_of(mesh, std::span(faces.front_only).subspan(at, count)));
   }
-  append(soup, std::move(one_sided), mesh);
-  append(soup, std::move(two_sided), mesh);
+  append(soup, std::move(faces.front_only), mesh);
+  append(soup, std::move(faces.both), mesh);
   return soup;
 }
 

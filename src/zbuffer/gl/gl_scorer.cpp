@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "zbuffer/detail/drawable.hpp"
 #include "zbuffer/detail/outward.hpp"
 #include "zbuffer/detail/view.hpp"
 #include "zbuffer/gl/drawing.hpp"
@@ -15,17 +14,10 @@ namespace rejoin::zbuffer::gl {
 namespace {
 
 Surface surface_of(const mesh::Mesh& mesh) {
-  const std::vector<glm::uvec3> faces = detail::finite_faces(mesh);
-  const std::vector<bool> from_front = detail::seen_from_front(mesh, faces);
-  Surface surface{mesh.vertices, {}};
-  surface.faces.reserve(faces.size());
-  for (const bool wanted : {true, false}) {
-    for (std::size_t f = 0; f < faces.size(); ++f) {
-      if (from_front[f] == wanted) surface.faces.push_back(faces[f]);
-    }
-    if (wanted) surface.front_only = surface.faces.size();
-  }
-  return surface;
+  detail::SidedFaces faces = detail::sided_faces(mesh);
+  const std::size_t front_only = faces.front_only.size();
+  faces.front_only.insert(faces.front_only.end(), faces.both.begin(), faces.both.end());
+  return {mesh.vertices, std::move(faces.front_only), front_only};
 }
 
 Placement placement(const detail::Projection& projection) {
