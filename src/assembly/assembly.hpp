@@ -44,7 +44,7 @@ struct Join {
   double score =
       0;  ///< of the candidate that agrees with the assembly, or without any as the contact lies there
   double contact_area = 0;  ///< squared mesh units
-  double gap_median = 0;    ///< of |gap| over the contact, mesh units
+  double gap_median = 0;    ///< mesh units; both as in match::JointError
   bool found = false;       ///< no candidate said so: the two touch where others have put them
 };
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "match/evidence.hpp"
+
 namespace rejoin::assembly {
 namespace {
 
@@ -124,17 +126,17 @@ std::vector<Facing> facing_points(const Piece& a, const Piece& b, const Rigid& b
 Touch touch(const Piece& a, const Piece& b, const Rigid& b_to_a) {
   const double tolerance = touching(a, b);
   const double aside = std::max(a.spacing(), b.spacing());
+  double touching_count = 0.0;
   std::vector<double> gaps;
-  for (const Facing& facing : facing_points(a, b, b_to_a, aside + tolerance, 0)) {
+  for (const Facing& facing : facing_points(a, b, b_to_a, std::hypot(aside, match::kOver * tolerance), 0)) {
     const glm::dvec3 offset = b_to_a(facing.on_b) - facing.on_a;
     const double gap = glm::dot(offset, facing.normal_a);
-    if (std::abs(gap) > tolerance || glm::length(offset - gap * facing.normal_a) > aside) continue;
-    gaps.push_back(std::abs(gap));
+    if (std::abs(gap) > match::kOver * tolerance) continue;
+    if (glm::length(offset - gap * facing.normal_a) > aside) continue;
+    gaps.push_back(gap);
+    if (std::abs(gap) <= tolerance) touching_count += 1.0;
   }
-  if (gaps.empty()) return {};
-  const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
-  std::nth_element(gaps.begin(), middle, gaps.end());
-  return {static_cast<double>(gaps.size()) * b.broken_area(), *middle};
+  return {touching_count * b.broken_area(), match::median_gap(gaps)};
 }
 
 double overlap(const Piece& a, const Piece& b, const Rigid& b_to_a) {

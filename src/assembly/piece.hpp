@@ -1,6 +1,7 @@
 /// A fragment as assembly looks at it: where it touches others, and where it would be inside them.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -71,11 +72,11 @@ bool are_near(const Piece& a, const Piece& b, const Rigid& b_to_a, double distan
 double touching(const Piece& a, const Piece& b);
 
 struct Touch {
-  double area = 0;        ///< squared mesh units
-  double gap_median = 0;  ///< of |gap|, mesh units
+  double area = 0;                                              ///< squared mesh units
+  double gap_median = std::numeric_limits<double>::infinity();  ///< mesh units
 };
 
-/// The broken surfaces' contact.
+/// The broken surfaces' contact: both figures as in match::Evidence.
 Touch touch(const Piece& a, const Piece& b, const Rigid& b_to_a);
 
 /// Contact below this share of the smaller piece's surface is none.

@@ -119,7 +119,7 @@ class Look {
     double touching = 0.0;
     const std::size_t step = stride(from.size(), most_samples_);
     const double share = static_cast<double>(step) * b_.sample_area;
-    const auto farthest = static_cast<float>(std::hypot(lengths_.spacing, 4.0 * lengths_.tolerance));
+    const auto farthest = static_cast<float>(std::hypot(lengths_.spacing, kOver * lengths_.tolerance));
     for (std::size_t k = 0; k < from.size(); k += step) {
       const std::uint32_t i = from[k];
       const glm::vec3 p = move_(b_.broken.points[i]);
@@ -130,7 +130,7 @@ class Look {
       const auto gap = static_cast<double>(glm::dot(offset, n));
       const double aside =
           std::sqrt(std::max(0.0, static_cast<double>(glm::dot(offset, offset)) - gap * gap));
-      if (aside > lengths_.spacing || std::abs(gap) > 4.0 * lengths_.tolerance) continue;
+      if (aside > lengths_.spacing || std::abs(gap) > kOver * lengths_.tolerance) continue;
       if (glm::dot(n, move_.direction(b_.broken.normals[i])) > kFacing) continue;
       gaps.push_back(gap);
       normal += glm::dvec3(n);
@@ -144,7 +144,7 @@ class Look {
     e.contact_area = touching * share;
     e.shared_area = static_cast<double>(gaps.size()) * share;
     e.patch_area = lengths_.patch * lengths_.patch;
-    e.gap_median = median(gaps);
+    e.gap_median = median_gap(gaps);
     if (glm::length(normal) > 0) e.normal = glm::normalize(normal);
     e.core_samples = static_cast<int>(core.size());
     if (core.size() < 12 || !(glm::length(normal) > 0)) return;
@@ -221,6 +221,11 @@ class Look {
 };
 
 }  // namespace
+
+double median_gap(std::vector<double> gaps) {
+  for (double& gap : gaps) gap = std::abs(gap);
+  return gaps.empty() ? std::numeric_limits<double>::infinity() : median(gaps);
+}
 
 double strength(const Evidence& evidence) {
   const double against = evidence.shared_area + evidence.penetration_area;

@@ -2,17 +2,27 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <limits>
+#include <vector>
 
 namespace rejoin::match {
+
+/// Tolerances within which one surface lies over the other, touching or not.
+inline constexpr double kOver = 4.0;
+
+/// The figure "gap median" of a joint, wherever it is told: the median of |gap|, so that gaps on both sides do not cancel.
+/// \param gaps  signed, mesh units, of samples of B's broken surface that lie over A's
+/// \return infinite without samples
+double median_gap(std::vector<double> gaps);
 
 /// What speaks for a joint and what against it, at one pose.  Areas in squared mesh units.
 struct Evidence {
   double contact_area = 0;  ///< B's broken surface that faces A's within the tolerance
-  /// B's broken surface that lies over A's, touching or not (within four tolerances).
+  /// B's broken surface that lies over A's, touching or not (within kOver tolerances).
   double shared_area = 0;
   double patch_area = 0;  ///< of a patch of surface whose relief is independent of the next one's
   int core_samples = 0;   ///< of the shared surface, those that are not next to another facet
-  double gap_median = 0;  ///< over the shared area, mesh units, positive = apart
+  double gap_median = std::numeric_limits<double>::infinity();  ///< median_gap() over the shared area
   double gap_spread = 0;  ///< robust deviation (1.48 MAD) of the gaps, mesh units
   double relief = 0;      ///< robust deviation of the shared surface from a quadric: what there is to explain
   double information =

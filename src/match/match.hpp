@@ -80,7 +80,8 @@ struct JointError {
   double raycast = std::numeric_limits<double>::infinity();  ///< slope error by ray casting the full surfaces
   double overlap = 0;                                        ///< A_S / min(A_S1, A_S2)
   double contact_area = 0;                                   ///< squared mesh units
-  double gap_median = 0;                                     ///< mesh units, over the contact
+  /// Median |gap| of B's broken surface where it lies over A's (median_gap()), mesh units; infinite without any.
+  double gap_median = std::numeric_limits<double>::infinity();
   double penetration = 0;  ///< volume of B that lies clearly inside A, over the contact area, mesh units
 };
 

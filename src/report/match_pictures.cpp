@@ -36,14 +36,10 @@ Image draw_heights(const zbuffer::DepthMap& map, const JointMaps& maps, const Ma
   return draw_map(heights(map, far), style);
 }
 
-Image draw_difference(const JointMaps& maps, const MapWindow& window) {
+Image draw_difference(const JointMaps& maps, const match::JointError& error, const MapWindow& window) {
   MapPicture style;
-  style.title = "Slope difference of A and B";
-  style.note = maps.score.overlap == 0
-                   ? "the two maps do not overlap"
-                   : fmt::format("mean slope {} over {} pixels; depth error {} of the view a pixel step",
-                                 short_number(static_cast<double>(maps.score.error) * maps.a.width),
-                                 maps.score.overlap, short_number(maps.score.error));
+  style.title = "Slope difference of A and B, whole fragments";
+  style.note = difference_note(error, maps.score.overlap > 0);
   style.unit = "[slope]";
   style.bar = {difference_colour, 0, difference_scale(maps), false, ""};
   style.window = window;
@@ -53,14 +49,14 @@ Image draw_difference(const JointMaps& maps, const MapWindow& window) {
 /// \return the three files
 std::vector<std::filesystem::path> write_depth_maps(const std::filesystem::path& folder, const Joint& joint,
                                                     const std::string& name_a, const std::string& name_b,
-                                                    int resolution) {
+                                                    const match::JointError& error, int resolution) {
   const JointMaps maps = make_maps(joint, resolution);
   const MapWindow window = covered_window({&maps.a, &maps.b}, 4);
   std::vector<std::filesystem::path> files{folder / "depth_a.png", folder / "depth_b.png",
                                            folder / "depth_difference.png"};
   write_png(files[0], draw_heights(maps.a, maps, window, "A  " + name_a + ", seen from B"));
   write_png(files[1], draw_heights(maps.b, maps, window, "B  " + name_b + ", seen from A, mirrored"));
-  write_png(files[2], draw_difference(maps, window));
+  write_png(files[2], draw_difference(maps, error, window));
   return files;
 }
 
@@ -84,6 +80,12 @@ std::vector<std::filesystem::path> write_joined(const std::filesystem::path& fol
 
 }  // namespace
 
+std::string difference_note(const match::JointError& error, bool overlap) {
+  if (!overlap) return "the two maps do not overlap";
+  return fmt::format("dark where slopes agree; mean {}, walls behind the break included (depth error {})",
+                     short_number(error.slope), short_number(error.depth));
+}
+
 std::vector<std::filesystem::path> write_match_outputs(const std::filesystem::path& folder,
                                                        const match::Fragment& a, const match::Fragment& b,
                                                        const match::Result& result,
@@ -100,7 +102,7 @@ std::vector<std::filesystem::path> write_match_outputs(const std::filesystem::pa
   files.push_back(folder / "match.png");
   const std::string backend = std::string(zbuffer::name_of(result.backend)) + " (" + result.renderer + ")";
   write_png(files.back(), draw_match_sheet(joint, {name_a, name_b, result.verdict, best, backend}));
-  for (const auto& file : write_depth_maps(folder, joint, name_a, name_b, options.map_resolution))
+  for (const auto& file : write_depth_maps(folder, joint, name_a, name_b, best.error, options.map_resolution))
     files.push_back(file);
   for (const auto& file : write_joined(folder, a, b, best.pose)) files.push_back(file);
   return files;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "match/match.hpp"
@@ -11,6 +12,10 @@ namespace rejoin::report {
 struct MatchOutputOptions {
   int map_resolution = 256;  ///< pixels across the depth maps that are shown
 };
+
+/// The line under the title of depth_difference.png: the candidate's figures, as in the JSON of the run.
+/// \param overlap  whether the maps of the picture have a pixel in common
+std::string difference_note(const match::JointError& error, bool overlap);
 
 /// Writes the pictures and files of the best candidate:
 ///   match.png              the fragments opened, joined, their faces coloured by gap, a cut through the

@@ -94,7 +94,7 @@ std::vector<double> histogram(const Joint& joint, int count) {
   return result;
 }
 
-void draw_gap_legend(Image& sheet, const Joint& joint, const Area& area) {
+void draw_gap_legend(Image& sheet, const Joint& joint, double gap_median, const Area& area) {
   frame(sheet, area, "Gap [mesh units]");
   const int bar_x = area.x + 152;
   const Area bar{bar_x, area.y + 74, 30, area.height - 216};
@@ -113,16 +113,14 @@ void draw_gap_legend(Image& sheet, const Joint& joint, const Area& area) {
   const int y = area.y + area.height - 92;
   fill(sheet, {area.x + 14, y, 20, 14}, kNoContact);
   draw_text(sheet, area.x + 42, y + 13, "no contact within " + short_number(joint.reach), {12, kInk});
-  draw_text(sheet, area.x + 14, y + 42, "median |gap|  " + short_number(joint.contact.gap_median),
-            {12, kInk});
-  draw_text(sheet, area.x + 14, y + 66, "90 % are below  " + short_number(joint.contact.gap_p90), {12, kInk});
+  draw_text(sheet, area.x + 14, y + 42, "median |gap|  " + short_number(gap_median), {12, kInk});
 }
 
-void draw_lower_row(Image& sheet, const Joint& joint) {
+void draw_lower_row(Image& sheet, const Joint& joint, double gap_median) {
   const Area faces{kMargin, kLower, 1090, kLowerHeight};
   draw_gap_views(sheet, joint, faces);
   const Area legend{faces.x + faces.width + kGutter, kLower, 290, kLowerHeight};
-  draw_gap_legend(sheet, joint, legend);
+  draw_gap_legend(sheet, joint, gap_median, legend);
   const int left = legend.x + legend.width + kGutter;
   const Area cut{left, kLower, kWidth - kMargin - left, kLowerHeight};
   put(sheet, cut, "Cut through the joint", draw_section(joint, inside(cut).width, inside(cut).height));
@@ -145,7 +143,7 @@ VerdictLabel label_of(match::Verdict verdict) {
   return {"NO JOIN", {166, 48, 48}};
 }
 
-void draw_header(Image& sheet, const Joint& joint, const SheetLabels& labels) {
+void draw_header(Image& sheet, const SheetLabels& labels) {
   const VerdictLabel verdict = label_of(labels.verdict);
   const TextStyle big{22, Colour(255), Align::Middle, true};
   const int chip = static_cast<int>(text_width(verdict.text, big)) + 40;
@@ -163,25 +161,27 @@ void draw_header(Image& sheet, const Joint& joint, const SheetLabels& labels) {
   const double right = left + 28 + text_width("A  " + a, name) + 40;
   fill(sheet, {static_cast<int>(right), 34, 18, 18}, kTintB);
   draw_text(sheet, right + 28, 52, "B  " + fitted(labels.name_b, name, room), name);
-  const match::JointError& error = labels.candidate.error;
-  draw_text(
-      sheet, kMargin, 90,
-      fmt::format("gap median {}   overlap depth {}   contact area {}   slope error {} (ray cast {})   depth "
-                  "error {}   "
-                  "map overlap {:.0f} %   backend {}",
-                  short_number(joint.contact.gap_median), short_number(joint.contact.penetration),
-                  short_number(joint.contact.area), short_number(error.slope), short_number(error.raycast),
-                  short_number(error.depth), 100 * error.overlap, labels.backend),
-      {12.5, kFaint});
+  draw_text(sheet, kMargin, 90, figures_line(labels), {12.5, kFaint});
 }
 
 }  // namespace
 
+std::string figures_line(const SheetLabels& labels) {
+  const match::JointError& error = labels.candidate.error;
+  return fmt::format(
+      "gap median {}   penetration {}   contact area {}   whole fragments: slope difference {} (ray cast "
+      "{}), "
+      "depth error {}, map overlap {:.0f} %   backend {}",
+      short_number(error.gap_median), short_number(error.penetration), short_number(error.contact_area),
+      short_number(error.slope), short_number(error.raycast), short_number(error.depth), 100 * error.overlap,
+      labels.backend);
+}
+
 Image draw_match_sheet(const Joint& joint, const SheetLabels& labels) {
   Image sheet(kWidth, kHeight, kPaper);
-  draw_header(sheet, joint, labels);
+  draw_header(sheet, labels);
   draw_upper_row(sheet, joint);
-  draw_lower_row(sheet, joint);
+  draw_lower_row(sheet, joint, labels.candidate.error.gap_median);
   return sheet;
 }
 

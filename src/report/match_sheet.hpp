@@ -19,6 +19,9 @@ struct SheetLabels {
   std::string backend;  ///< "raster (AVX2)"
 };
 
+/// The line of figures above the panels: those of the candidate, as in the JSON of the run.
+std::string figures_line(const SheetLabels& labels);
+
 /// 2000 x 1300: the fragments opened, joined from three sides; the broken faces coloured by gap, how often
 /// each gap
 /// occurs, a cut through the joint.

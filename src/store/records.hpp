@@ -73,7 +73,7 @@ struct Candidate {
   double raycast = std::numeric_limits<double>::infinity();  ///< slope difference by ray casting
   double overlap = 0;                                        ///< fraction of the smaller silhouette
   double contact_area = 0;                                   ///< squared mesh units
-  double gap_median = 0;                                     ///< mesh units
+  double gap_median = 0;                                     ///< of |gap|, mesh units
   double penetration = 0;                                    ///< mesh units
 };
 

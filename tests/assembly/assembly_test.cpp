@@ -9,6 +9,7 @@
 #include "../mesh/shapes.hpp"
 #include "assembly/witness.hpp"
 #include "core/parallel.hpp"
+#include "match/align.hpp"
 #include "shatter/shatter.hpp"
 
 namespace rejoin::assembly {
@@ -290,6 +291,20 @@ TEST(Assemble, ContactWithoutACandidateIsListedAsFound) {
   ASSERT_NE(found, result.joins.end());
   EXPECT_TRUE(found->found);
   EXPECT_GT(found->contact_area, 0.3 * largest->area);  // worn edges and steep places do not count
+}
+
+TEST(Assemble, FiguresOfAJoinAreThoseOfItsMatch) {
+  const Result result = run(ball(), ball().all_true(0.99));
+  ASSERT_FALSE(result.joins.empty());
+  for (const Join& join : result.joins) {
+    const match::Fragment& a = ball().fragments[join.a];
+    const match::Fragment& b = ball().fragments[join.b];
+    const Rigid pose = inverse(result.placements[join.a].pose) * result.placements[join.b].pose;
+    const match::Evidence evidence = match::Joint(a, b).evidence(match::to_origins(a, b, pose), 0);
+    // One computes in single precision: a sample in a hundred may cross a limit.
+    EXPECT_NEAR(join.contact_area, evidence.contact_area, 0.01 * evidence.contact_area);
+    EXPECT_NEAR(join.gap_median, evidence.gap_median, 0.01 * evidence.gap_median);
+  }
 }
 
 TEST(Assemble, AlignmentTogetherMendsJoinsThatAreALittleOff) {

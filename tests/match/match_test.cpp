@@ -201,7 +201,28 @@ TEST(Joint, TrueJointHasItsContactAreaAndNoPenetration) {
   }
   EXPECT_NEAR(evidence.contact_area, cut, 0.1 * cut);  // samples at the rim have no partner
   EXPECT_LT(evidence.penetration_area, 0.01 * cut);
-  EXPECT_NEAR(evidence.gap_median, 0.0, joint.tolerance());
+  EXPECT_LT(evidence.gap_median, 0.5 * joint.tolerance());
+}
+
+// The planes meet in a line through the middle: as much is apart as overlaps, so a signed median is 0.
+TEST(Joint, GapMedianIsThatOfTheDistanceOnEitherSide) {
+  const Fragment below = flat_half(true);
+  const Fragment above = flat_half(false);
+  const Joint joint(below, above);
+  const double farthest = 3.0 * joint.tolerance();  // at the ends in x; all lies within four tolerances
+  const double angle = std::asin(farthest / testing::kHalfX);
+  const Rigid tilted{axis_rotation({0, 1, 0}, angle), glm::dvec3(0.0)};
+  // |gap| is even from 0 to `farthest`; the samples lie a spacing apart, and none beyond the edge.
+  EXPECT_NEAR(joint.evidence(tilted, 0).gap_median, 0.5 * farthest, 0.05 * farthest);
+  EXPECT_LT(joint.evidence(Rigid{}, 0).gap_median, 0.01 * joint.tolerance());
+}
+
+TEST(Joint, WithoutSharedSurfaceThereIsNoGapMedian) {
+  const Fragment below = flat_half(true);
+  const Fragment above = flat_half(false);
+  const Rigid away{glm::dmat3(1.0), {0, 0, 10}};
+  const Joint joint(below, above);
+  EXPECT_TRUE(std::isinf(unmeasured(below, above, away, joint.evidence(away, 0), 0.0).error.gap_median));
 }
 
 TEST(Joint, PushedInPosePenetratesAndIsWeaker) {

@@ -110,6 +110,18 @@ TEST(Section, OfAnOpenMeshIsAnOpenLine) {
   EXPECT_NEAR(std::abs(lines[0].front().x - lines[0].back().x), 2, 1e-6);
 }
 
+TEST(MatchOutputs, PicturesTellTheFiguresOfTheCandidate) {
+  match::Candidate candidate;
+  candidate.error = {0.0545, 6.97, 6.98, 0.95, 613, 0.0513, 0.002};
+  EXPECT_EQ(
+      figures_line({"a", "b", match::Verdict::Join, candidate, "raster"}),
+      "gap median 0.0513   penetration 0.002   contact area 613   whole fragments: slope difference 6.97 "
+      "(ray cast 6.98), depth error 0.0545, map overlap 95 %   backend raster");
+  const std::string note = difference_note(candidate.error, true);
+  EXPECT_NE(note.find("mean 6.97"), std::string::npos) << note;
+  EXPECT_NE(note.find("depth error 0.0545"), std::string::npos) << note;
+}
+
 TEST(MatchOutputs, AreWholeAndReadable) {
   const Folder folder;
   const Planted pair = planted_pair(24);
