@@ -43,8 +43,8 @@ std::string pose_text(const Rigid& pose) {
   return text;
 }
 
-std::string measured(double value) {
-  return std::isfinite(value) ? fmt::format("{:.4f}", value) : std::string("not measured");
+std::string measured(double value, int digits) {
+  return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : std::string("not measured");
 }
 
 std::string summary(const match::Result& result) {
@@ -54,10 +54,10 @@ std::string summary(const match::Result& result) {
   const match::Candidate& best = result.candidates.front();
   const match::JointError& error = best.error;
   return fmt::format("{}, score {:.3f}\n", name_of(result.verdict), best.score) + pose_text(best.pose) +
-         fmt::format("error: slope {}, ray-cast {}, overlap {:.0f} %\n", measured(error.slope),
-                     measured(error.raycast), 100.0 * error.overlap) +
-         fmt::format("contact: area {:.4g}, median gap {:.3g}, penetration {:.3g} (in the scans' unit)\n",
-                     error.contact_area, error.gap_median, error.penetration);
+         fmt::format("contact: area {:.4g}, median gap {}, penetration {:.3g} (in the scans' unit)\n",
+                     error.contact_area, measured(error.gap_median, 3), error.penetration) +
+         fmt::format("whole fragments: slope difference {}, ray-cast {}, overlap {:.0f} %\n",
+                     measured(error.slope, 4), measured(error.raycast, 4), 100.0 * error.overlap);
 }
 
 class MatchCommand final : public Command {
@@ -67,7 +67,7 @@ class MatchCommand final : public Command {
         ->required()
         ->group("Input");
     app.add_option("B", path_b_)->required()->group("Input");
-    app.add_option("--json", json_, "write pose, score and errors")->type_name("FILE")->group("Output");
+    app.add_option("--json", json_, "write pose, score and measures")->type_name("FILE")->group("Output");
     app.add_option("--out", out_, "write the joined model and pictures")->type_name("DIR")->group("Output");
     app.add_option("--facets", painted_, "facets painted on A or B, may be repeated")
         ->type_name("FILE")

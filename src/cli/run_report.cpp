@@ -136,9 +136,9 @@ std::vector<report::ReportFigure> figures(const store::Pair& pair,
     list = {{"median gap", best.gap_median},
             {"penetration", best.penetration},
             {"contact area", best.contact_area},
-            {"slope error", best.slope},
-            {"ray-cast slope error", best.raycast},
-            {"depth error", best.depth},
+            {"slope difference, whole fragments", best.slope},
+            {"the same, ray cast", best.raycast},
+            {"depth error, whole fragments", best.depth},
             {"silhouette overlap, %", 100 * best.overlap}};
   }
   list.push_back({"poses found", static_cast<double>(candidates.size())});

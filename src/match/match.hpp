@@ -75,9 +75,10 @@ Rigid to_files(const Fragment& a, const Fragment& b, const Rigid& at_origins);
 
 /// How good a joint is, and by what.
 struct JointError {
-  double depth = std::numeric_limits<double>::infinity();    ///< e_d, fraction of f_R per pixel step
+  /// e_d, fraction of f_R per pixel step.  These three see the whole fragments, with the walls of thin ones: the score uses none.
+  double depth = std::numeric_limits<double>::infinity();
   double slope = std::numeric_limits<double>::infinity();    ///< e_d * N
-  double raycast = std::numeric_limits<double>::infinity();  ///< slope error by ray casting the full surfaces
+  double raycast = std::numeric_limits<double>::infinity();  ///< slope difference by ray casting the full surfaces
   double overlap = 0;                                        ///< A_S / min(A_S1, A_S2)
   double contact_area = 0;                                   ///< squared mesh units
   /// Median |gap| of B's broken surface where it lies over A's (median_gap()), mesh units; infinite without any.

@@ -118,15 +118,16 @@ void draw_scatter(Image& sheet, const Area& area, const Comparison& comparison, 
 Image draw_comparison(const Comparison& comparison, const std::string& name_a, const std::string& name_b) {
   Image sheet(kWidth, kHeight, kPaper);
   const TextStyle title{18, kInk, Align::Left, true};
-  draw_text(
-      sheet, kMargin, 36,
-      fitted("Error of " + name_a + " and " + name_b + ": drawn and ray cast", title, kWidth - 2 * kMargin),
-      title);
+  draw_text(sheet, kMargin, 36,
+            fitted("Matching error of " + name_a + " and " + name_b + ": drawn against ray cast", title,
+                   kWidth - 2 * kMargin),
+            title);
   const auto slope = [&](const PairScore& score) {
     return static_cast<double>(score.error) * comparison.resolution;
   };
   draw_text(sheet, kMargin, 60,
-            fmt::format("slope error at the pose (red): drawn {}, ray cast {}, ray cast at full detail {};  "
+            fmt::format("slope difference of the whole fragments at the pose (red): drawn {}, ray cast {}, "
+                        "ray cast at full detail {};  "
                         "{} x {} pixels; {}; {}",
                         short_number(slope(comparison.pose.drawn)), short_number(slope(comparison.pose.cast)),
                         short_number(slope(comparison.pose.cast_full)), comparison.resolution,
@@ -143,7 +144,7 @@ Image draw_comparison(const Comparison& comparison, const std::string& name_a, c
   const int side = kPanel - 30;
   draw_scatter(sheet, {left, kTop + kRowHead, side, side}, comparison, &GridPose::cast, &GridPose::drawn,
                "ray cast, same meshes",
-               fmt::format("drawn: slope error at {} poses", comparison.grid.size()));
+               fmt::format("drawn: slope difference at {} poses", comparison.grid.size()));
   draw_scatter(sheet, {left, kTop + kRow + kRowHead, side, side}, comparison, &GridPose::cast_full,
                &GridPose::cast, "ray cast, full meshes", "ray cast, coarse meshes");
   return sheet;

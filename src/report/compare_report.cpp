@@ -92,7 +92,8 @@ std::string agreement_line(const char* name, const match::ErrorAgreement& agreem
 
 std::string compare_table(const Comparison& comparison) {
   const int n = comparison.resolution;
-  std::string text = fmt::format("error at the pose, {} x {} pixels\n", n, n);
+  std::string text =
+      fmt::format("slope difference of the whole fragments at the pose, {} x {} pixels\n", n, n);
   text += fmt::format("  {:<28}{:>12}{:>12}{:>12}{:>12}{:>12}\n", "", "slope", "depth", "overlap", "A covers",
                       "B covers");
   text += score_line("drawn, coarse", comparison.pose.drawn, n);
