@@ -77,10 +77,11 @@ Rigid to_files(const Fragment& a, const Fragment& b, const Rigid& at_origins);
 struct JointError {
   /// e_d, fraction of f_R per pixel step.  These three see the whole fragments, with the walls of thin ones: the score uses none.
   double depth = std::numeric_limits<double>::infinity();
-  double slope = std::numeric_limits<double>::infinity();    ///< e_d * N
-  double raycast = std::numeric_limits<double>::infinity();  ///< slope difference by ray casting the full surfaces
-  double overlap = 0;                                        ///< A_S / min(A_S1, A_S2)
-  double contact_area = 0;                                   ///< squared mesh units
+  double slope = std::numeric_limits<double>::infinity();  ///< e_d * N
+  double raycast =
+      std::numeric_limits<double>::infinity();  ///< slope difference by ray casting the full surfaces
+  double overlap = 0;                           ///< A_S / min(A_S1, A_S2)
+  double contact_area = 0;                      ///< squared mesh units
   /// Median |gap| of B's broken surface where it lies over A's (median_gap()), mesh units; infinite without any.
   double gap_median = std::numeric_limits<double>::infinity();
   double penetration = 0;  ///< volume of B that lies clearly inside A, over the contact area, mesh units
@@ -100,7 +101,8 @@ struct Stability {
   double margin = 0;        ///< log-odds by which the best pose is ahead of the best different one
   double repeat_deg = 0;    ///< turn between the poses that either half of the samples gives, degrees
   double repeat_shift = 0;  ///< distance of the joint's middle between them, mesh units
-  double slide = 0;         ///< of a push along the seam, what is left after aligning again: 0 held, 1 free
+  /// Of a push along the seam, the share that is left after aligning again: 0 held, 1 free (or driven on).
+  double slide = 0;
 };
 
 /// A point of the search's course, for the convergence picture.

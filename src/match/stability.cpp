@@ -30,7 +30,9 @@ std::optional<Stability> probe(const Joint& joint, const Rigid& pose, const Evid
   for (const double push : {-kPush * t, kPush * t}) {
     const Rigid moved = Rigid{glm::dmat3(1.0), push * evidence.along} * pose;
     const glm::dvec3 left = joint.align(moved, options)(on_b) - evidence.centre;
-    stability.slide = std::max(stability.slide, std::abs(glm::dot(left, evidence.along) / push));
+    // Where the alignment carries the pose on, or back beyond its place, nothing holds it: that is no more than free.
+    const double share = std::abs(glm::dot(left, evidence.along) / push);
+    stability.slide = std::max(stability.slide, std::min(1.0, share));
   }
   return stability;
 }

@@ -72,6 +72,22 @@ TEST(Stability, WavyCutHoldsAndPlaneSlides) {
   EXPECT_GT(slide_at(Joint(below, above), Rigid{}), 0.8);
 }
 
+// A false pose may be carried farther than it was pushed.
+TEST(Stability, SlideIsAShare) {
+  const Pair pair = make_pair(5);
+  const Joint joint(pair.a, pair.b);
+  Random random(7);
+  for (int k = 0; k < 12; ++k) {
+    const Rigid off = testing::random_rigid(random, 8.0 * joint.tolerance());
+    const Rigid pose =
+        Rigid{axis_rotation({0, 0, 1}, random.uniform(-0.3, 0.3)), off.translation} * pair.truth;
+    const auto stability = probe(joint, pose, joint.evidence(pose, 0));
+    if (!stability) continue;
+    EXPECT_GE(stability->slide, 0.0);
+    EXPECT_LE(stability->slide, 1.0);
+  }
+}
+
 TEST(Stability, PoseWithoutContactIsNotProbedAndNoSureJoin) {
   const Pair pair = make_pair(5);
   const Joint joint(pair.a, pair.b);
