@@ -50,7 +50,7 @@ std::string table(const mesh::Segmentation& facets) {
                         facet.fracture ? "fracture" : "original", facet.area, facet.length, facet.width,
                         100.0 * facet.roughness, facet.normal.x, facet.normal.y, facet.normal.z);
   }
-  return text;
+  return text + "rough %: rms height over a fitted curved patch, of the patch's radius\n";
 }
 
 std::string facets_json(const match::Fragment& fragment) {

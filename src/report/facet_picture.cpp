@@ -5,17 +5,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "report/canvas.hpp"
-#include "report/renderer.hpp"
 
 namespace rejoin::report {
 namespace {
 
 constexpr int kPanel = 480;
 constexpr int kTop = 64;
-constexpr int kLook = 160;           // pixels a side of the view that finds where the numbers go
-constexpr double kNumbered = 0.004;  // share of the view from which a facet is numbered
+constexpr double kRoom = 7;  // pixels from its number to a facet's border, for a number in every view
 
 struct View {
   glm::dvec3 back;
@@ -36,33 +36,42 @@ std::array<View, 6> six_sides() {
            {glm::normalize(-y - kLift * x), z}}};
 }
 
-/// Writes each facet's number in the middle of what is seen of it.
-void draw_numbers(Image& image, const Visibility& seen, const std::vector<int>& facet_of_face,
-                  const mesh::Segmentation& facets, int left, int top) {
-  struct Sum {
-    double x = 0;
-    double y = 0;
-    int count = 0;
-  };
-  std::vector<Sum> sums(facets.facets.size());
-  for (int y = 0; y < seen.height; ++y) {
-    for (int x = 0; x < seen.width; ++x) {
-      const auto pixel =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(seen.width) + static_cast<std::size_t>(x);
-      const int facet = seen.body[pixel] < 0 ? -1 : facet_of_face[seen.face[pixel]];
-      if (facet < 0) continue;
-      Sum& sum = sums[static_cast<std::size_t>(facet)];
-      sum.x += x;
-      sum.y += y;
-      ++sum.count;
+/// Upper left corner of a view, pixels.
+glm::ivec2 corner_of(int panel) {
+  const int row = panel / 3;
+  return {(panel % 3) * kPanel, kTop + row * kPanel};
+}
+
+/// The number on a bright rim, so that it can be read on any colour.
+void draw_number(Image& image, const glm::dvec2& at, int number) {
+  constexpr double kHalf = 6;  // of the height of a digit
+  constexpr double kRim = 2;
+  const std::string text = std::to_string(number);
+  for (const glm::dvec2 d :
+       {glm::dvec2(-1, 0), {1, 0}, {0, -1}, {0, 1}, {-0.7, -0.7}, {-0.7, 0.7}, {0.7, -0.7}, {0.7, 0.7}}) {
+    draw_text(image, at.x + kRim * d.x, at.y + kHalf + kRim * d.y, text,
+              {2 * kHalf, Colour(255), Align::Middle, true});
+  }
+  draw_text(image, at.x, at.y + kHalf, text, {2 * kHalf, kInk, Align::Middle, true});
+}
+
+/// Numbers in the views where they have room; else in the one where they have most.
+std::vector<std::vector<FacetLabel>> chosen_labels(std::vector<std::vector<FacetLabel>> views,
+                                                   std::size_t facets) {
+  std::vector<double> most(facets, 0.0);
+  for (const auto& labels : views) {
+    for (const FacetLabel& label : labels) {
+      double& room = most[static_cast<std::size_t>(label.facet)];
+      room = std::max(room, label.room);
     }
   }
-  const double scale = static_cast<double>(kPanel) / kLook;
-  for (std::size_t f = 0; f < sums.size(); ++f) {
-    if (sums[f].count < kNumbered * kLook * kLook) continue;
-    draw_text(image, left + scale * sums[f].x / sums[f].count, top + scale * sums[f].y / sums[f].count + 6,
-              std::to_string(f), {12, kInk, Align::Middle, true});
+  for (auto& labels : views) {
+    const auto cramped = [&](const FacetLabel& label) {
+      return label.room < kRoom && label.room < most[static_cast<std::size_t>(label.facet)];
+    };
+    labels.erase(std::remove_if(labels.begin(), labels.end(), cramped), labels.end());
   }
+  return views;
 }
 
 }  // namespace
@@ -77,6 +86,32 @@ Colour facet_colour(int number, const mesh::Segmentation& facets) {
     return static_cast<std::uint8_t>(255.0 * (0.95 - 0.8 * std::clamp(std::min(k, 4.0 - k), 0.0, 1.0)));
   };
   return {channel(5.0), channel(3.0), channel(1.0)};
+}
+
+std::vector<FacetLabel> facet_labels(const Visibility& seen, const std::vector<int>& facet_of_face) {
+  // One step of paper all around: the picture's edge is a border, too.
+  cv::Mat facet(seen.height + 2, seen.width + 2, CV_32SC1, cv::Scalar(-1));
+  int last = -1;
+  for (int y = 0; y < seen.height; ++y) {
+    for (int x = 0; x < seen.width; ++x) {
+      const auto pixel =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(seen.width) + static_cast<std::size_t>(x);
+      if (seen.body[pixel] < 0) continue;
+      facet.at<int>(y + 1, x + 1) = facet_of_face[seen.face[pixel]];
+      last = std::max(last, facet.at<int>(y + 1, x + 1));
+    }
+  }
+  std::vector<FacetLabel> labels;
+  for (int number = 0; number <= last; ++number) {
+    const cv::Mat mask = facet == number;
+    cv::Mat room;
+    cv::distanceTransform(mask, room, cv::DIST_L2, cv::DIST_MASK_PRECISE);
+    double most = 0;
+    cv::Point at;
+    cv::minMaxLoc(room, nullptr, &most, nullptr, &at);
+    if (most > 0) labels.push_back({number, at.x - 1, at.y - 1, most});
+  }
+  return labels;
 }
 
 Image facet_picture(const mesh::Mesh& surface, const mesh::Segmentation& facets, const std::string& title) {
@@ -101,14 +136,19 @@ Image facet_picture(const mesh::Mesh& surface, const mesh::Segmentation& facets,
   RenderOptions options;
   options.width = options.height = kPanel;
   options.relief = 0.8;
-  int panel = 0;
+  std::vector<std::vector<FacetLabel>> labels;
   for (const View& view : six_sides()) {
-    const int left = (panel % 3) * kPanel;
-    const int top = kTop + (panel / 3) * kPanel;
+    const int panel = static_cast<int>(labels.size());
     const Camera camera = scene.overview(view.back, view.up);
-    paste(image, scene.render(camera, options), left, top);
-    draw_numbers(image, scene.look(camera, kLook, kLook), facet_of_face, facets, left, top);
-    ++panel;
+    const glm::ivec2 corner = corner_of(panel);
+    paste(image, scene.render(camera, options), corner.x, corner.y);
+    labels.push_back(facet_labels(scene.look(camera, kPanel, kPanel), facet_of_face));
+  }
+  labels = chosen_labels(std::move(labels), facets.facets.size());
+  for (int panel = 0; panel < static_cast<int>(labels.size()); ++panel) {
+    for (const FacetLabel& label : labels[static_cast<std::size_t>(panel)]) {
+      draw_number(image, glm::dvec2(corner_of(panel) + glm::ivec2(label.x, label.y)) + 0.5, label.facet);
+    }
   }
   return image;
 }
