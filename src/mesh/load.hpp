@@ -26,7 +26,8 @@ enum class Weld {
 /// Reads a mesh or an oriented cloud by its extension (any case) and cleans it.
 ///
 /// Equal vertices are welded (exactly equal ones: nothing depends on the scale), degenerate and duplicate
-/// faces dropped, vertices of no face dropped, faces wound against their neighbours or a closed surface that
+/// faces dropped, specks far from the rest dropped (each less than 1 % of the area, farther away than a tenth of the size of the
+/// rest), vertices of no face dropped, faces wound against their neighbours or a closed surface that
 /// is inside out turned, cloud normals made unit length (estimated and oriented outwards where the file has
 /// none).  Whatever changes the surface is said in a warning.  Non-manifold and open meshes load whole.
 ///

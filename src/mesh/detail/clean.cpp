@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "mesh/detail/orient.hpp"
 #include "mesh/detail/soup.hpp"
+#include "mesh/detail/specks.hpp"
 #include "mesh/detail/triangulate.hpp"
 #include "mesh/detail/weld.hpp"
 
@@ -101,6 +102,12 @@ void clean_faces(Loaded& loaded, const std::string& name) {
   if (dropped.duplicate > 0) {
     loaded.warnings.push_back(
         fmt::format("{}: dropped {} of {} faces that are there twice", name, dropped.duplicate, before));
+  }
+  if (const Specks specks = drop_specks(mesh); specks.parts > 0) {
+    loaded.warnings.push_back(
+        fmt::format("{}: dropped {} of {} faces, in {} small part{} far from the rest (remove specks in the "
+                    "scanning software)",
+                    name, specks.faces, before, specks.parts, specks.parts == 1 ? "" : "s"));
   }
   drop_unused_vertices(mesh);
   const Turned turned = orient_faces(mesh);

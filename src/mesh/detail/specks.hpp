@@ -1,0 +1,21 @@
+/// Dust and stray faces that a scanner leaves far from the piece.
+#pragma once
+
+#include <cstddef>
+
+#include "mesh/mesh.hpp"
+
+namespace rejoin::mesh::detail {
+
+struct Specks {
+  std::size_t parts = 0;
+  std::size_t faces = 0;
+};
+
+/// Drops parts of the surface (faces that share vertices) that are small and lie clearly apart: each has less than 1 % of the
+/// area, and its box is farther from the box of all that is kept than a tenth of the diagonal of the larger parts' box.  What has
+/// no larger part, and patches near each other, stay.  Call drop_unused_vertices() after it.
+/// \pre no face is degenerate
+Specks drop_specks(Mesh& mesh);
+
+}  // namespace rejoin::mesh::detail
