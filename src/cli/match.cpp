@@ -14,6 +14,7 @@
 #include "cli/match_json.hpp"
 #include "cli/match_options.hpp"
 #include "core/files.hpp"
+#include "match/units.hpp"
 #include "mesh/save.hpp"
 #include "report/match_pictures.hpp"
 #include "rims/propose.hpp"
@@ -60,6 +61,13 @@ std::string summary(const match::Result& result) {
                      measured(error.slope, 4), measured(error.raycast, 4), 100.0 * error.overlap);
 }
 
+/// What to tell of sizes that no two pieces of one object have; empty: nothing.
+std::vector<std::string> doubts_about_units(const match::Fragment& a, const match::Fragment& b) {
+  if (!match::units_differ(a.diameter, b.diameter)) return {};
+  return {fmt::format("{} has a diameter of {:.3g}, {} of {:.3g}: are both in the same unit?", a.path,
+                      a.diameter, b.path, b.diameter)};
+}
+
 class MatchCommand final : public Command {
  public:
   void define(CLI::App& app) override {
@@ -93,6 +101,8 @@ class MatchCommand final : public Command {
     require_facets("--facets-b", options.facets_b, b);
 
     std::vector<StageTime> stages;
+    const std::vector<std::string> doubts = doubts_about_units(a, b);
+    for (const std::string& doubt : doubts) console.warning(doubt);
     if (by_rims_) {
       Stopwatch clock(stages);
       options.proposals = proposals(a, b, console, context);
@@ -104,6 +114,7 @@ class MatchCommand final : public Command {
     for (const std::string& warning : result.warnings) console.warning(warning);
     if (result.cancelled) console.warning("interrupted; what follows is the best so far");
     tell_times(console, a, b, result);
+    result.warnings.insert(result.warnings.begin(), doubts.begin(), doubts.end());
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     if (json_) write_file(*json_, match_json(a, b, options, result, seconds.count()));
     console.result(summary(result));

@@ -94,6 +94,21 @@ TEST_F(MatchCommand, WritesTheKeysOfTheSchema) {
   }
 }
 
+TEST_F(MatchCommand, WarnsOfScansInDifferentUnits) {
+  mesh::Mesh metres = pair.b;
+  metres.origin *= 1e-3;
+  for (glm::vec3& vertex : metres.vertices) vertex *= 1e-3F;
+  const std::string path = folder / "metres.ply";
+  mesh::save(path, metres);
+  const Finished finished = run({"match", a, path, "--json", json});
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_NE(finished.err.find("same unit?"), std::string::npos) << finished.err;
+  const ordered_json warnings = ordered_json::parse(read_file(json))["warnings"];
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].get<std::string>().find(path), std::string::npos) << warnings[0];
+  EXPECT_EQ(result_of(quick({}))["warnings"].size(), 0U);
+}
+
 TEST_F(MatchCommand, TellsTheTimeOfEveryStage) {
   const ordered_json search = result_of(quick({}))["search"];
   std::vector<std::string> names;
