@@ -3,9 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <optional>
 
 #include "cli/command.hpp"
@@ -18,6 +20,11 @@ std::optional<double> parse_number(const std::string& text) {
   const double value = std::strtod(text.c_str(), &end);
   if (text.empty() || *end != '\0' || !std::isfinite(value)) return std::nullopt;
   return value;
+}
+
+bool is_whole(const std::string& text) {
+  const bool sign = !text.empty() && (text[0] == '-' || text[0] == '+');
+  return text.find_first_not_of("0123456789", sign ? 1 : 0) == std::string::npos;
 }
 
 std::vector<std::string> split(const std::string& text) {
@@ -51,6 +58,27 @@ CLI::Validator in_range(double low, double high) {
             return fmt::format("'{}' is no number from {} to {}", text, low, high);
           },
           ""};
+}
+
+CLI::Validator whole_in_range(double low, double high) {
+  return {[low, high](std::string& text) {
+            const std::optional<double> value = is_whole(text) ? parse_number(text) : std::nullopt;
+            if (value && *value >= low && *value <= high) return std::string();
+            return fmt::format("'{}' is no whole number from {} to {}", text, low, high);
+          },
+          ""};
+}
+
+CLI::Option* add_seed(CLI::App& app, std::uint64_t& seed, const std::string& description) {
+  const auto check = [](std::string& text) {
+    std::uint64_t value = 0;
+    const char* end = text.data() + text.size();
+    const auto [stopped, problem] = std::from_chars(text.data(), end, value);
+    if (problem == std::errc() && stopped == end) return std::string();
+    return fmt::format("'{}' is no whole number from 0 to {}", text,
+                       std::numeric_limits<std::uint64_t>::max());
+  };
+  return app.add_option("--seed", seed, description)->type_name("S")->check(CLI::Validator(check, ""));
 }
 
 glm::dvec3 parse_direction(const std::string& option, const std::string& text) {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -38,6 +40,9 @@ Choices<zbuffer::Backend> backend_choices();
 /// Lets only numbers from low to high through; NaN is outside.
 CLI::Validator in_range(double low, double high);
 
+/// The same for whole numbers.
+CLI::Validator whole_in_range(double low, double high);
+
 /// What numbers an option takes, and the word for them in its help.
 struct NumberRange {
   double low;
@@ -51,8 +56,12 @@ CLI::Option* add_number(CLI::App& app, const std::string& name, Number& value, c
                         const std::string& description) {
   return app.add_option(name, value, description)
       ->type_name(range.word)
-      ->check(in_range(range.low, range.high));
+      ->check(std::is_integral_v<Number> ? whole_in_range(range.low, range.high)
+                                         : in_range(range.low, range.high));
 }
+
+/// Adds --seed.
+CLI::Option* add_seed(CLI::App& app, std::uint64_t& seed, const std::string& description);
 
 /// A direction "x,y,z", scaled to unit length.
 /// \throws UsageError not three finite numbers, or length 0

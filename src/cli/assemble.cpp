@@ -52,7 +52,7 @@ class AssembleCommand final : public Command {
         ->type_name("DIR")
         ->group("Output");
     app.option_defaults()->group("Assembly");
-    app.add_option("--sure", options_.sure, "score from which a join needs no other witness (0.99)")
+    app.add_option("--sure", options_.sure, "score of a join that needs no witness, 0.5 to 1 (0.99)")
         ->type_name("P")
         ->check(CLI::Range(0.5, 1.0).description(""));
   }

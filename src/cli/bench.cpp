@@ -95,19 +95,19 @@ class BenchCommand final : public Command {
         ->delimiter(',')
         ->expected(1)
         ->take_all()
-        ->check(in_range(8, 2048));
+        ->check(whole_in_range(8, 2048));
     app.add_option("--faces", options_.faces, "faces a fragment (10000)")
         ->type_name("N,N,...")
         ->delimiter(',')
         ->expected(1)
         ->take_all()
-        ->check(in_range(12, 1e7));
+        ->check(whole_in_range(12, 1e7));
     app.add_option("--batch", options_.batches, "poses a call (grows until a call takes a while)")
         ->type_name("N,N,...")
         ->delimiter(',')
         ->expected(1)
         ->take_all()
-        ->check(in_range(1, 1 << 20));
+        ->check(whole_in_range(1, 1 << 20));
     add_number(app, "--seconds", options_.seconds_per_row, {0.001, 60, "S"}, "measured time a row (0.5)");
   }
 

@@ -24,7 +24,7 @@ void add_facets(CLI::App& app, const char* name, std::vector<int>& numbers) {
       ->delimiter(',')
       ->expected(1)
       ->take_all()
-      ->check(in_range(0, 1e6));
+      ->check(whole_in_range(0, 1e6));
 }
 
 }  // namespace
@@ -45,7 +45,7 @@ void MatchOptions::define(CLI::App& app) {
              "pixels across a depth map, 8 to 2048 (128)");
   add_choice(app, "--backend", options_.backend, backend_choices(), "what draws");
   add_number(app, "--chains", options_.chains, {1, 256}, "annealing chains side by side, 1 to 256 (8)");
-  app.add_option("--seed", options_.seed, "of the random numbers (1)")->type_name("S");
+  add_seed(app, options_.seed, "of the random numbers (1)");
 }
 
 match::Options MatchOptions::values() const {
@@ -64,6 +64,10 @@ match::Options MatchOptions::values() const {
                                                                  : match::Constraint::None);
   if (options.constraint == match::Constraint::Material && !options.material_a) {
     throw UsageError("--constraint material", "needs --material-a and --material-b", "add them as x,y,z");
+  }
+  if (constraint_ == match::Constraint::None && (any_direction || options.material_a)) {
+    throw UsageError("--constraint none", "contradicts the directions that are given",
+                     "leave out one of the two");
   }
   return options;
 }

@@ -31,7 +31,7 @@ class OutlineCalibrateCommand final : public Command {
         ->group("Input");
     app.add_option("--json", json_, "write the parameters")->type_name("FILE")->group("Output");
     add_number(app, "--scales", options_.scales, {1, 8}, "scales, 1 to 8 (5)")->group("Search");
-    app.add_option("--seed", options_.seed, "of the random numbers (1)")->type_name("S")->group("Search");
+    add_seed(app, options_.seed, "of the random numbers (1)")->group("Search");
   }
 
   ExitCode run(Console& console, Context& context) override {

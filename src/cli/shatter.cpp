@@ -59,7 +59,7 @@ class ShatterCommand final : public Command {
         ->group("Output");
     app.option_defaults()->group("Break (lengths in percent of the diameter)");
     add_number(app, "--pieces", options_.pieces, {2, 10000}, "how many fragments, 2 to 10000 (8)");
-    app.add_option("--seed", options_.seed, "another seed, another break (1)")->type_name("N");
+    add_seed(app, options_.seed, "another seed, another break (1)");
     add_number(app, "--roughness", options_.roughness, {0, 4},
                "of the breaks: 0 plane, 1 stone, up to 4 (1)");
     add_number(app, "--erosion", erosion_, {0, 5}, "radius of worn edges, 0 to 5 (0.1)");

@@ -46,12 +46,11 @@ std::vector<int> facets_facing(const Fragment& fragment, const std::vector<glm::
 std::vector<int> allowed_facets(const Fragment& fragment, const std::vector<int>& chosen,
                                 const std::vector<glm::dvec3>& directions, const Options& options) {
   if (!chosen.empty()) return chosen;
-  if (options.constraint != Constraint::Direction) return {};
   return facets_facing(fragment, directions, options.tolerance_deg);
 }
 
 bool axes_agree(const Rigid& pose, const Options& options) {
-  if (options.constraint != Constraint::Material || !options.material_a || !options.material_b) return true;
+  if (!options.material_a || !options.material_b) return true;
   const double cosine = std::abs(
       glm::dot(glm::normalize(*options.material_a), pose.rotation * glm::normalize(*options.material_b)));
   return cosine > std::cos((options.tolerance_deg + 10.0) * kDegree);
