@@ -4,6 +4,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
 #include <exception>
 #include <new>
 #include <string>
@@ -12,6 +13,7 @@
 #include "cli/command.hpp"
 #include "cli/help.hpp"
 #include "cli/interrupt.hpp"
+#include "core/files.hpp"
 #include "core/parallel.hpp"
 #include "core/version.hpp"
 
@@ -93,6 +95,15 @@ int run(const std::vector<Entry>& entries, const Common& common) {
   throw UsageError("command line", "no command is given", "see rejoin --help");
 }
 
+/// Whether JSON goes to stdout (--json -), where no text may stand beside it.
+bool json_on_stdout(const CLI::App& app) {
+  const CLI::Option* json = app.get_option_no_throw("--json");
+  if (json != nullptr && !json->empty() && json->results().back() == kStdout) return true;
+  const auto used = app.get_subcommands();
+  return std::any_of(used.begin(), used.end(),
+                     [](const CLI::App* command) { return json_on_stdout(*command); });
+}
+
 /// CLI11's messages as one line with the way out.
 int explain(const CLI::App& root, const CLI::ParseError& error) {
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
@@ -118,6 +129,7 @@ int run_program(int argc, char** argv) {
   const std::vector<Entry> entries = add_commands(root);
   try {
     root.parse(argc, argv);
+    common.quiet = common.quiet || json_on_stdout(root);
     return run(entries, common);
   } catch (const CLI::ParseError& error) {
     return explain(root, error);

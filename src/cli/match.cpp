@@ -75,7 +75,9 @@ class MatchCommand final : public Command {
         ->required()
         ->group("Input");
     app.add_option("B", path_b_)->required()->group("Input");
-    app.add_option("--json", json_, "write pose, score and measures")->type_name("FILE")->group("Output");
+    app.add_option("--json", json_, "write pose, score and measures (-: to stdout)")
+        ->type_name("FILE")
+        ->group("Output");
     app.add_option("--out", out_, "write the joined model and pictures")->type_name("DIR")->group("Output");
     app.add_option("--facets", painted_, "facets painted on A or B, may be repeated")
         ->type_name("FILE")
@@ -99,10 +101,10 @@ class MatchCommand final : public Command {
     use_painted_facets(painted_, {&a, &b}, console);
     require_facets("--facets-a", options.facets_a, a);
     require_facets("--facets-b", options.facets_b, b);
-
-    std::vector<StageTime> stages;
     const std::vector<std::string> doubts = doubts_about_units(a, b);
     for (const std::string& doubt : doubts) console.warning(doubt);
+
+    std::vector<StageTime> stages;
     if (by_rims_) {
       Stopwatch clock(stages);
       options.proposals = proposals(a, b, console, context);
@@ -112,9 +114,9 @@ class MatchCommand final : public Command {
     result.stages.insert(result.stages.begin(), stages.begin(), stages.end());
     console.end_progress();
     for (const std::string& warning : result.warnings) console.warning(warning);
+    result.warnings.insert(result.warnings.begin(), doubts.begin(), doubts.end());
     if (result.cancelled) console.warning("interrupted; what follows is the best so far");
     tell_times(console, a, b, result);
-    result.warnings.insert(result.warnings.begin(), doubts.begin(), doubts.end());
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     if (json_) write_file(*json_, match_json(a, b, options, result, seconds.count()));
     console.result(summary(result));

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <iostream>
 #include <string>
 
 #include "core/error.hpp"
@@ -26,6 +27,11 @@ fs::path beside(const fs::path& path) {
   return result;
 }
 
+/// Under its own name, too: where it leads to a file, that one would be replaced and not written to.
+bool is_stdout(const fs::path& path) {
+  return path == kStdout || path == "/dev/stdout";
+}
+
 bool is_device(const fs::path& path) {
   std::error_code ignored;
   return fs::exists(path, ignored) && !fs::is_regular_file(path, ignored) && !fs::is_directory(path, ignored);
@@ -39,6 +45,7 @@ bool is_device(const fs::path& path) {
 }  // namespace
 
 void require_writable_file(const fs::path& path) {
+  if (is_stdout(path)) return;
   if (is_device(path)) {
     if (access(path.c_str(), W_OK) != 0) refuse(path, errno);
     return;
@@ -69,6 +76,12 @@ void write_file(const fs::path& path, std::string_view content) {
 }
 
 void write_file(const fs::path& path, const std::function<void(std::ostream&)>& write) {
+  if (is_stdout(path)) {
+    errno = 0;
+    write(std::cout);
+    if (!std::cout.flush()) refuse("standard output", errno);
+    return;
+  }
   const bool direct = is_device(path);
   const fs::path target = direct ? path : beside(path);
   errno = 0;

@@ -8,6 +8,9 @@
 
 namespace rejoin {
 
+/// The path that stands for the standard output in write_file() and require_writable_file().
+inline constexpr std::string_view kStdout = "-";
+
 /// Finds out now, before the long work, whether the file can be written then; leaves no trace.
 /// \throws IoError it cannot
 void require_writable_file(const std::filesystem::path& path);

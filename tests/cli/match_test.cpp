@@ -109,6 +109,13 @@ TEST_F(MatchCommand, WarnsOfScansInDifferentUnits) {
   EXPECT_EQ(result_of(quick({}))["warnings"].size(), 0U);
 }
 
+TEST_F(MatchCommand, DashIsStdoutForJsonAloneAndNoFile) {
+  const Finished finished = run(quick({"--json", "-"}));
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_EQ(without_seconds(ordered_json::parse(finished.out)), without_seconds(result_of(quick({}))));
+  EXPECT_FALSE(std::filesystem::exists("-"));
+}
+
 TEST_F(MatchCommand, TellsTheTimeOfEveryStage) {
   const ordered_json search = result_of(quick({}))["search"];
   std::vector<std::string> names;
