@@ -238,12 +238,13 @@ std::string convergence_svg(const match::Result& result, const std::string& titl
       "height=\"{1:.0f}\" "
       "fill=\"#fafafa\"/>\n",
       kWidth, kHeight);
-  svg += text(kLeft, 28, "start", title, " font-size=\"16\" font-weight=\"bold\"");
+  svg += text(kLeft, 28, "start", (chains ? "Course of the search: " : "Scores of the poses found: ") + title,
+              " font-size=\"16\" font-weight=\"bold\"");
   svg += text(
       kLeft, 48, "start",
-      fmt::format("{} evaluations{}", result.evaluations,
-                  chains ? fmt::format(", {} chains, best energy so far of each", result.convergence.size())
-                         : ", scores of the candidate poses"));
+      fmt::format(
+          "{} evaluations{}", result.evaluations,
+          chains ? fmt::format(", {} chains, best energy so far of each", result.convergence.size()) : ""));
   svg += chains ? chains_chart(result.convergence, ranges) : candidates_chart(result.candidates);
   return svg + "</svg>\n";
 }

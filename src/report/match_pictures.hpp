@@ -23,7 +23,7 @@ std::string difference_note(const match::JointError& error, bool overlap);
 ///   depth_a.png, depth_b.png, depth_difference.png   both maps along the joint (B's mirrored into A's
 /// frame), and where
 ///                          their slopes differ
-///   convergence.svg        the search's course, or the candidates' scores
+///   convergence.svg        the course of an annealing search; of others the candidates' scores
 ///   joined.glb, joined.ply A and B moved onto it, in A's file coordinates, each in its own colour
 /// Each file is written whole or not at all.  Without a candidate only convergence.svg is written.
 /// \return the files, in the order in which they were written

@@ -61,6 +61,7 @@ TEST(Convergence, DrawsEnergyAndTemperatureOfEachChain) {
   const std::string svg = convergence_svg(annealed(3), "a and b");
   EXPECT_EQ(problem_in(svg), "");
   EXPECT_EQ(count_of(svg, "<polyline"), 6U);
+  EXPECT_NE(svg.find(">Course of the search: a and b<"), std::string::npos);
   EXPECT_EQ(count_of(svg, "stroke-dasharray"), 3U);
 }
 
@@ -72,6 +73,7 @@ TEST(Convergence, WithoutChainsDrawsTheCandidatesScores) {
   EXPECT_EQ(problem_in(svg), "");
   EXPECT_EQ(count_of(svg, "<rect"), 1U + 4U);
   EXPECT_EQ(count_of(svg, "<polyline"), 0U);
+  EXPECT_NE(svg.find(">Scores of the poses found: a and b<"), std::string::npos);
 }
 
 TEST(Convergence, EmptyResultAndInfiniteEnergiesAreStillWellFormed) {
