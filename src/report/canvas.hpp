@@ -30,9 +30,8 @@ struct TextStyle {
   bool bold = false;
 };
 
-/// Writes one line with its capitals standing on y.  Only ASCII can be shown (OpenCV's stroke font needs no
-/// font
-/// file); each other character becomes a '?'.
+/// Writes one line with its capitals standing on y.  Only ASCII can be shown (OpenCV's stroke font needs no font file):
+/// Latin letters lose their accents, each other character becomes a '?'.
 void draw_text(Image& image, double x, double y, const std::string& text, const TextStyle& style);
 
 /// Width that draw_text() needs, pixels.

@@ -112,8 +112,12 @@ void draw_gap_legend(Image& sheet, const Joint& joint, double gap_median, const 
   draw_bar(sheet, bar, {gap_colour, -joint.scale, joint.scale, true, ""}, 12);
   const int y = area.y + area.height - 92;
   fill(sheet, {area.x + 14, y, 20, 14}, kNoContact);
-  draw_text(sheet, area.x + 42, y + 13, "no contact within " + short_number(joint.reach), {12, kInk});
+  draw_text(sheet, area.x + 42, y + 13, "nothing within " + short_number(joint.reach), {12, kInk});
   draw_text(sheet, area.x + 14, y + 42, "median |gap|  " + short_number(gap_median), {12, kInk});
+  if (joint.reach > joint.scale) {
+    draw_text(sheet, area.x + 14, y + 66,
+              "darkest: from " + short_number(joint.scale) + " to " + short_number(joint.reach), {12, kInk});
+  }
 }
 
 void draw_lower_row(Image& sheet, const Joint& joint, double gap_median) {

@@ -157,20 +157,24 @@ std::vector<std::vector<glm::dvec2>> section(const mesh::Mesh& mesh, const Rigid
 }
 
 Image draw_section(const Joint& joint, int width, int height) {
+  constexpr int kFoot = 46;     // pixels below the drawing, for the scale bar
   constexpr double kStrip = 3;  // longer than this times its width: a wall's edge, cut through the wall
   const bool strip = joint.length > kStrip * joint.width;
   const Plane plane{contact_point(joint), joint.normal, strip ? joint.across : joint.along};
   const double seen = strip ? 2.4 * joint.width : 1.15 * joint.length;  // from bottom to top
   const double least = 1e-3 * mesh::diameter(joint.a);
-  Window window{{0, 0}, height / std::max(seen, least), width, height};
+  const int shown = std::max(1, height - kFoot);
+  Window window{{0, 0}, shown / std::max(seen, least), width, shown};
   if (joint.contact.area <= 0) window.pixels = width / (2.5 * std::max(mesh::diameter(joint.a), least));
   if (!strip) {
     window.middle.x = glm::dot(joint.centre - plane.origin, plane.right);
     window.middle.y = glm::dot(joint.centre - plane.origin, plane.up);
   }
+  Image drawing(width, window.height, kPaper);
+  draw_lines(drawing, window, section(joint.a, Rigid{}, plane), kTintA);
+  draw_lines(drawing, window, section(joint.b, joint.pose, plane), kTintB);
   Image image(width, height, kPaper);
-  draw_lines(image, window, section(joint.a, Rigid{}, plane), kTintA);
-  draw_lines(image, window, section(joint.b, joint.pose, plane), kTintB);
+  paste(image, drawing, 0, 0);
   const double bar = round_up(width / 8.0 / window.pixels);
   const double left = 16;
   const double base = height - 16;

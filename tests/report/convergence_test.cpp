@@ -114,9 +114,20 @@ TEST(Canvas, LongNamesAreCutToFit) {
   EXPECT_EQ(fitted("short", style, 300), "short");
 }
 
+TEST(Canvas, AccentsAreLeftOutAndOtherScriptsMarked) {
+  const auto shown = [](const std::string& text) { return fitted(text, {16}, 1e4); };
+  EXPECT_EQ(shown("Schale Gr\xC3\xB6\xC3\x9F"
+                  "e 1.ply"),
+            "Schale Grosse 1.ply");
+  EXPECT_EQ(shown("Gro\xCC\x88sse"), "Grosse");  // the letter and its accent, as one system writes file names
+  EXPECT_EQ(shown("\xC3\x80\xC3\x86\xC3\xBF \xC4\x80\xC4\xB2\xC5\x81\xC5\xBE\xC5\xBF"), "AAEy AIJLzs");
+  EXPECT_EQ(shown("\xE6\xBC\xA2\xC4"), "??");
+  EXPECT_EQ(shown("a\xFFz\x01"), "a?z?");
+}
+
 TEST(Canvas, TextLeavesInkWhereItIsAskedTo) {
   Image image(120, 40, Colour(255, 255, 255));
-  draw_text(image, 10, 30, "H\xC3\xA4nde", {16, Colour(0, 0, 0)});
+  draw_text(image, 10, 30, "H\xC3\xA4nde \xE6\xBC\xA2", {16, Colour(0, 0, 0)});
   int ink = 0;
   for (const Colour& pixel : image.pixels) ink += pixel.r < 128 ? 1 : 0;
   EXPECT_GT(ink, 60);

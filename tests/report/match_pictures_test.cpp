@@ -110,6 +110,23 @@ TEST(Section, OfAnOpenMeshIsAnOpenLine) {
   EXPECT_NEAR(std::abs(lines[0].front().x - lines[0].back().x), 2, 1e-6);
 }
 
+// The bar and its number stand on paper: of a block cut lengthwise the drawing fills the panel from side to side.
+TEST(Section, LeavesRoomForTheScaleBar) {
+  const Planted pair = planted_pair(24);
+  const Joint joint = make_joint(pair.a.surface, pair.b.surface, pair.pose, glm::dvec3(0.0), 0.02);
+  const Image image = draw_section(joint, 300, 240);
+  const auto is_grey = [](Colour c) { return std::abs(c.r - c.g) < 16 && std::abs(c.g - c.b) < 16; };
+  bool drawn = false;
+  for (int x = 0; x < image.width; ++x) {
+    for (int y = 0; y < image.height; ++y) {
+      const bool grey = is_grey(image.at(x, y));
+      drawn = drawn || !grey;
+      EXPECT_TRUE(grey || y < 194) << x << ", " << y;
+    }
+  }
+  EXPECT_TRUE(drawn);
+}
+
 TEST(MatchOutputs, PicturesTellTheFiguresOfTheCandidate) {
   match::Candidate candidate;
   candidate.error = {0.0545, 6.97, 6.98, 0.95, 613, 0.0513, 0.002};
