@@ -3,6 +3,7 @@
 #include "cli/json_values.hpp"
 #include "cli/outline_command.hpp"
 #include "core/version.hpp"
+#include "outline/stitch.hpp"
 
 namespace rejoin::cli {
 namespace {
@@ -17,7 +18,9 @@ ordered_json piece_json(const outline::Piece& piece) {
           {"area", outline::signed_area(piece.outline.points)}};
 }
 
-ordered_json candidate_json(const outline::JoinCandidate& candidate) {
+ordered_json candidate_json(const outline::Piece& a, const outline::Piece& b,
+                            const outline::JoinCandidate& candidate) {
+  const outline::JoinAreas areas = outline::join_areas(a.outline, b.outline, candidate);
   return {{"pose", to_json(candidate.pose)},
           {"flipped", candidate.pose.flipped},
           {"score", candidate.score},
@@ -25,8 +28,8 @@ ordered_json candidate_json(const outline::JoinCandidate& candidate) {
            {{"begin_a", candidate.boundary.begin_a},
             {"begin_b", candidate.boundary.begin_b},
             {"length", candidate.boundary.length}}},
-          {"gap_area", candidate.gap_area},
-          {"overlap_area", candidate.overlap_area}};
+          {"gap_area", areas.gap},
+          {"overlap_area", areas.overlap}};
 }
 
 }  // namespace
@@ -42,7 +45,7 @@ std::string outline_match_json(const outline::Piece& a, const outline::Piece& b,
                                const outline::PairResult& result, const OutlineSearch& search) {
   ordered_json candidates = ordered_json::array();
   for (const outline::JoinCandidate& candidate : result.candidates)
-    candidates.push_back(candidate_json(candidate));
+    candidates.push_back(candidate_json(a, b, candidate));
   const bool found = !result.candidates.empty();
   const double score = found ? result.candidates[0].score : 0.0;
   ordered_json json = {

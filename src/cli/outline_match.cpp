@@ -10,12 +10,13 @@
 #include "cli/outline_json.hpp"
 #include "cli/outline_rims.hpp"
 #include "core/files.hpp"
+#include "outline/stitch.hpp"
 #include "report/outline_pictures.hpp"
 
 namespace rejoin::cli {
 namespace {
 
-std::string summary(const outline::PairResult& result) {
+std::string summary(const outline::Piece& a, const outline::Piece& b, const outline::PairResult& result) {
   if (result.candidates.empty()) return "no join, nothing fits\n";
   const outline::JoinCandidate& best = result.candidates.front();
   const glm::dmat3 m = outline::matrix(best.pose);
@@ -24,10 +25,11 @@ std::string summary(const outline::PairResult& result) {
                             : "pose (B's coordinates to A's):\n";
   for (int row = 0; row < 3; ++row)
     text += fmt::format("  {:12.8f} {:12.8f} {:14.6g}\n", m[0][row], m[1][row], m[2][row]);
+  const outline::JoinAreas areas = outline::join_areas(a.outline, b.outline, best);
   return text +
          fmt::format(
              "common boundary: length {:.4g}, gap area {:.4g}, overlap area {:.4g} (in the files' unit)\n",
-             best.boundary.length, best.gap_area, best.overlap_area);
+             best.boundary.length, areas.gap, areas.overlap);
 }
 
 /// One pair can afford to look for boundaries down to a fortieth of the border, and to fit whatever might be one: the shape of
@@ -73,7 +75,7 @@ class OutlineMatchCommand final : public Command {
       const OutlineSearch search{name_of(method_), seconds.count(), context.cancelled()};
       write_file(*json_, outline_match_json(pieces[0], pieces[1], result, search));
     }
-    console.result(summary(result));
+    console.result(summary(pieces[0], pieces[1], result));
     if (out_ && !context.cancelled())
       report::write_outline_match_pictures(*out_, pieces[0], pieces[1], result);
     return context.cancelled() ? kInterrupted : kDone;

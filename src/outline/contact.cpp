@@ -17,6 +17,8 @@ constexpr std::size_t kLag = 6;
 constexpr double kStepsADirection = 5.0;
 // Squared error of a direction below which nothing more can be learnt, radians squared.
 constexpr double kFloor = 0.006;
+// Points in a row that touch nothing end a contact.
+constexpr long kMisses = 3;
 // The field's reach, in steps.
 constexpr double kReach = 4.0;
 
@@ -26,8 +28,6 @@ struct Side {
   double pairs = 0.0;        // of samples a lag apart
   double changes = 0.0;      // squared change of a's own direction over the lag, of all pairs
   double differences = 0.0;  // squared difference of direction to the other border
-  double overlap = 0.0;
-  double gap = 0.0;
   double intruding = 0.0;
   double squares = 0.0;
 };
@@ -44,7 +44,6 @@ Side measure_side(const Silhouette& a, const Silhouette& b, const Planar& motion
     next = i + b.field.stride(p, a.step);
     if (p.x < low.x || p.y < low.y || p.x > high.x || p.y > high.y) continue;
     const double depth = b.field(p);
-    if (depth > 0.0) side.overlap += depth;
     if (depth > tolerance) side.intruding += 1.0;
     if (std::abs(depth) > tolerance) continue;
     const glm::dvec2 inward = b.field.gradient(p);
@@ -54,7 +53,6 @@ Side measure_side(const Silhouette& a, const Silhouette& b, const Planar& motion
     if (facing < kFacing) continue;
     side.count += 1.0;
     side.squares += depth * depth;
-    if (depth < 0.0) side.gap -= depth;
     side.differences += 2.0 * (1.0 - facing);
     touching[i] = 1;
   }
@@ -93,14 +91,35 @@ Silhouette::Silhouette(const Outline& outline, double wanted_step, double smooth
   }
 }
 
+PointRun grown_run(const Silhouette& a, const Silhouette& b, const Planar& a_to_b, double tolerance,
+                   PointRun run) {
+  const Motion motion(a_to_b);
+  const auto count = static_cast<long>(a.points.size());
+  const auto touches = [&](long i) {
+    const auto at = static_cast<std::size_t>(((i % count) + count) % count);
+    const glm::dvec2 p = motion(a.points[at]);
+    if (std::abs(b.field(p)) > tolerance) return false;
+    const glm::dvec2 inward = b.field.gradient(p);
+    return glm::dot(motion.direction(a.normals[at]), inward) >= kFacing * glm::length(inward);
+  };
+  for (const long way : {-1L, 1L}) {
+    long& end = way < 0 ? run.first : run.last;
+    long misses = 0;
+    for (long at = end + way; misses < kMisses && std::max(run.last, at) - std::min(run.first, at) < count;
+         at += way) {
+      misses = touches(at) ? 0 : misses + 1;
+      if (misses == 0) end = at;
+    }
+  }
+  return run;
+}
+
 Contact measure_contact(const Silhouette& a, const Silhouette& b, const Planar& b_to_a, double tolerance) {
   const Side ours = measure_side(a, b, inverse(b_to_a), tolerance);
   const Side theirs = measure_side(b, a, b_to_a, tolerance);
   Contact contact;
   contact.length = 0.5 * (ours.count * a.step + theirs.count * b.step);
   contact.information = 0.5 * (information(ours) + information(theirs));
-  contact.overlap_area = 0.5 * (ours.overlap * a.step + theirs.overlap * b.step);
-  contact.gap_area = 0.5 * (ours.gap * a.step + theirs.gap * b.step);
   contact.intrusion = std::max(ours.intruding * a.step, theirs.intruding * b.step);
   const double count = ours.count + theirs.count;
   contact.rms = count > 0.0 ? std::sqrt((ours.squares + theirs.squares) / count) : 0.0;

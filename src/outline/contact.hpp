@@ -50,19 +50,29 @@ struct Silhouette {
   DistanceField field;
 };
 
-/// What measure_contact() counts.  Lengths and areas are means of both sides, in file units.
+/// What measure_contact() counts.  Lengths are means of both sides, in file units.
 struct Contact {
   double length = 0.0;       ///< of border within the tolerance of the other's, facing it
   double information = 0.0;  ///< how much better the borders follow each other than chance, in nats; >= 0
-  double overlap_area = 0.0;
-  double gap_area = 0.0;   ///< along the contact
-  double intrusion = 0.0;  ///< length of border that lies deeper in the other piece than the tolerance
-  double rms = 0.0;        ///< distance of the borders along the contact
+  double intrusion = 0.0;    ///< length of border that lies deeper in the other piece than the tolerance
+  double rms = 0.0;          ///< distance of the borders along the contact
 };
 
 /// Lays B on A with a pose and measures.  Both silhouettes have about the same step.
 /// \param tolerance  distance up to which borders touch, file units, at most the fields' reach
 Contact measure_contact(const Silhouette& a, const Silhouette& b, const Planar& b_to_a, double tolerance);
+
+/// A run of a silhouette's points, first to last, cyclic: `first` may be negative and `last` beyond the count.
+struct PointRun {
+  long first = 0;
+  long last = 0;
+};
+
+/// A run with its ends moved outwards as long as A's border touches B's; three points that do not, in a row, end it.
+/// \param a_to_b  A's coordinates to B's   \param tolerance  as for measure_contact()
+/// \return at most once round A
+PointRun grown_run(const Silhouette& a, const Silhouette& b, const Planar& a_to_b, double tolerance,
+                   PointRun run);
 
 /// The pose moved so that the borders lie on each other where they are within `tolerance`: least squares of the
 /// distances along the contact.

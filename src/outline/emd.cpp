@@ -121,10 +121,8 @@ class EmdMatcher final : public Matcher {
     const Contact contact = measure_contact(a.silhouette, b.silhouette, candidate.pose, kTolerance * step);
     if (contact.intrusion > kMostIntrusion * contact.length) return candidate;
     candidate.score = contact.information / (contact.information + kHalfScore);
-    candidate.gap_area = contact.gap_area;
-    candidate.overlap_area = contact.overlap_area;
     candidate.boundary = boundary(a.forward, b.backward, stretch);
-    if (measure_ == Measure::EarthMover) candidate.boundary.length = contact.length;
+    if (measure_ == Measure::EarthMover) candidate.boundary = grown(a, b, candidate);
     return candidate;
   }
 
@@ -135,6 +133,25 @@ class EmdMatcher final : public Matcher {
     const long begin_b = ((-stretch.b.front() % size_b) + size_b) % size_b;
     return {a.step * static_cast<double>(begin_a), b.step * static_cast<double>(begin_b),
             a.step * static_cast<double>(stretch.a.size() - 1)};
+  }
+
+  /// The boundary with the ends that cost more than they add, as far as the borders touch at the candidate's pose.
+  static Boundary grown(const ScaledPiece& a, const ScaledPiece& b, const JoinCandidate& candidate) {
+    const auto& [begin_a, begin_b, length] = candidate.boundary;
+    const Silhouette& sa = a.silhouette;
+    const Silhouette& sb = b.silhouette;
+    const PointRun on_a =
+        grown_run(sa, sb, inverse(candidate.pose), kTolerance * sa.step,
+                  {std::lround(begin_a / sa.step), std::lround((begin_a + length) / sa.step)});
+    const PointRun on_b =
+        grown_run(sb, sa, candidate.pose, kTolerance * sa.step,
+                  {std::lround((begin_b - length) / sb.step), std::lround(begin_b / sb.step)});
+    const auto size_a = static_cast<long>(sa.points.size());
+    const auto size_b = static_cast<long>(sb.points.size());
+    return {sa.step * static_cast<double>(((on_a.first % size_a) + size_a) % size_a),
+            sb.step * static_cast<double>(((on_b.last % size_b) + size_b) % size_b),
+            0.5 * (sa.step * static_cast<double>(on_a.last - on_a.first) +
+                   sb.step * static_cast<double>(on_b.last - on_b.first))};
   }
 
   /// Drops all but the best of candidates that lay B in the same place.

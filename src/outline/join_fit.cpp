@@ -68,27 +68,19 @@ struct JoinFitter::State {
       limits.push_back(kTurningLimit * detail::usual_turning(scales, k));
   }
 
-  /// Area that lies in both.
-  struct Overlap {
-    double all = 0.0;
-    double deep = 0.0;  ///< deeper than the tolerance in both
-  };
-  Overlap overlap(std::size_t a, std::size_t b, const Planar& pose) const {
+  /// About the area that lies deeper than the tolerance in both; the grids' cells are too coarse for what is less deep.
+  double deep_overlap(std::size_t a, std::size_t b, const Planar& pose) const {
     const bool a_smaller = areas[a] < areas[b];
     const detail::DistanceGrid& moved = grids[a_smaller ? a : b];
     const detail::DistanceGrid& other = grids[a_smaller ? b : a];
     const Motion motion(a_smaller ? inverse(pose) : pose);
-    double all = 0.0;
     double deep = 0.0;
     for (const glm::dvec2& p : moved.inside()) {
       const double depth = other.depth(motion(p));
-      if (depth <= 0.0) continue;
-      const double own = moved.depth(p);
-      if (own > 0.0) all += 1.0;
-      if (std::min(depth, own) > tolerance) deep += 1.0;
+      if (depth <= tolerance) continue;
+      if (std::min(depth, moved.depth(p)) > tolerance) deep += 1.0;
     }
-    const double cell = moved.cell() * moved.cell();
-    return {all * cell, deep * cell};
+    return deep * moved.cell() * moved.cell();
   }
 };
 
@@ -145,14 +137,9 @@ std::optional<FittedJoin> JoinFitter::fit(std::size_t a, std::size_t b,
   join.boundary.begin_a = begin_a - std::floor(begin_a / s.perimeters[a]) * s.perimeters[a];
   join.boundary.begin_b = begin_b - std::floor(begin_b / s.perimeters[b]) * s.perimeters[b];
   join.boundary.length = 0.5 * (end_a - begin_a + begin_b - end_b);
-  const double step = border_a.border.signal->step;
-  for (const detail::Contact& c : contact->contacts) {
-    if (c.distance > 0.0) join.gap_area += c.distance * step;
-  }
-  const State::Overlap overlap = s.overlap(a, b, join.pose);
-  join.overlap_area = overlap.all;
-  fitted.overlap_share = overlap.deep / std::min(s.areas[a], s.areas[b]);
-  const double along_boundary = overlap.deep / (s.tolerance * join.boundary.length);
+  const double overlap = s.deep_overlap(a, b, join.pose);
+  fitted.overlap_share = overlap / std::min(s.areas[a], s.areas[b]);
+  const double along_boundary = overlap / (s.tolerance * join.boundary.length);
   const double residual = fitted.residual / (kResidual * s.tolerance);
   fitted.evidence =
       detail::agreement(border_a, border_b, contact->contacts) *

@@ -27,7 +27,7 @@ struct FitOptions {
 struct FittedJoin {
   JoinCandidate join;
   double evidence = 0.0;       ///< how much more the two borders agree than chance, natural logarithm
-  double overlap_share = 0.0;  ///< overlap area / the smaller piece's area
+  double overlap_share = 0.0;  ///< area that lies deep in both / the smaller piece's area
   double residual = 0.0;       ///< rms of the gap's variation along the boundary, file units
 };
 

@@ -98,11 +98,9 @@ struct Boundary {
 
 /// One way in which B may join A.
 struct JoinCandidate {
-  Planar pose;                ///< B's file coordinates -> A's
-  double score = 0.0;         ///< 0..1, higher = more likely a join, comparable across pairs
-  Boundary boundary;          ///< where the two meet
-  double gap_area = 0.0;      ///< between the two along the boundary, file units squared
-  double overlap_area = 0.0;  ///< covered by both, file units squared
+  Planar pose;         ///< B's file coordinates -> A's
+  double score = 0.0;  ///< 0..1, higher = more likely a join, comparable across pairs
+  Boundary boundary;   ///< where the two meet; see join_areas() for what lies between and over each other
 };
 
 /// What a matcher says of one pair.

@@ -78,6 +78,33 @@ detail::Region region_of(const Outline& outline) {
   return region;
 }
 
+/// The points of a closed polygon from `begin` forward for `length`, with all corners between.
+detail::Polygon stretch_of(const detail::Polygon& polygon, double begin, double length) {
+  const std::vector<double> lengths = arc_lengths(polygon);
+  const double total = lengths.back();
+  const double from = begin - std::floor(begin / total) * total;
+  const double to = from + std::min(length, total);
+  detail::Polygon points{point_at(polygon, lengths, from)};
+  for (const double turn : {0.0, total}) {
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const double at = lengths[i] + turn;
+      if (at > from && at < to) points.push_back(polygon[i]);
+    }
+  }
+  points.push_back(point_at(polygon, lengths, to));
+  return points;
+}
+
+/// What the two stretches of a boundary enclose: all along A's and back along B's.
+detail::Polygon strip_between(const Outline& a, const Outline& b, const JoinCandidate& join) {
+  const auto& [begin_a, begin_b, length] = join.boundary;
+  detail::Polygon strip = stretch_of(a.points, begin_a, length);
+  detail::Polygon back = stretch_of(b.points, join.pose.flipped ? begin_b : begin_b - length, length);
+  if (join.pose.flipped) std::reverse(back.begin(), back.end());
+  for (const glm::dvec2& p : back) strip.push_back(join.pose(p));
+  return strip;
+}
+
 /// Diameter of the largest disc inside a region.
 double widest(const detail::Region& region) {
   constexpr double kAccuracy = 0.05;
@@ -127,6 +154,14 @@ Seam find_seam(const std::vector<glm::dvec2>& a, const std::vector<glm::dvec2>& 
 
 double overlap_area(const Outline& a, const Outline& b, const Planar& pose) {
   return detail::area_of(detail::intersect(region_of(a), region_of(moved(b, pose))));
+}
+
+JoinAreas join_areas(const Outline& a, const Outline& b, const JoinCandidate& join) {
+  detail::Region pieces = region_of(a);
+  const detail::Region of_b = region_of(moved(b, join.pose));
+  pieces.insert(pieces.end(), of_b.begin(), of_b.end());
+  const detail::Region gap = detail::subtract({strip_between(a, b, join)}, pieces);
+  return {detail::area_of(gap), overlap_area(a, b, join.pose)};
 }
 
 std::vector<Outline> unite(const std::vector<Outline>& placed, double tolerance) {

@@ -38,6 +38,17 @@ Seam find_seam(const std::vector<glm::dvec2>& a, const std::vector<glm::dvec2>& 
 /// \source naiman 2018, section 7.4, the check of the union
 double overlap_area(const Outline& a, const Outline& b, const Planar& pose);
 
+/// Areas of a join in file units squared.
+struct JoinAreas {
+  double gap =
+      0.0;  ///< between the two stretches of the boundary and the lines between their ends, in neither piece
+  double overlap = 0.0;  ///< covered by both pieces, anywhere
+};
+
+/// The areas of a join of the outlines as the files have them, by polygons: exact but for the rounding of coordinates to
+/// 1e-9 of the pieces' extent.  The same for every method.
+JoinAreas join_areas(const Outline& a, const Outline& b, const JoinCandidate& join);
+
 /// Outlines that are placed in one frame, as one region: the area between them that is narrower than `tolerance` belongs to
 /// it.  One outline for each connected part, largest first.
 /// \param tolerance  file units; 0: only where they touch or overlap

@@ -112,6 +112,26 @@ TEST(OutlineMatch, FindsAPlantedJoinAndDrawsIt) {
   EXPECT_EQ(cv::imread(pictures + "/joined.png", cv::IMREAD_UNCHANGED).channels(), 4);
 }
 
+// The shapes' edges are scanned to a fraction of a pixel and each method lays them on each other to about a pixel.
+TEST(OutlineMatch, EveryMethodStatesAreasOfAboutHalfAPixelAlongATrueJoin) {
+  const BrokenShapes shapes;
+  json join = shapes.truth["joins"][0];
+  for (const json& other : shapes.truth["joins"])
+    if (other[2] > join[2]) join = other;
+  for (const char* method : {"multiscale", "lcs", "emd", "frechet"}) {
+    const std::string file = shapes / "match.json";
+    const Finished found =
+        run({"outline", "match", shapes.pieces + "/" + join[0].get<std::string>(),
+             shapes.pieces + "/" + join[1].get<std::string>(), "--method", method, "--json", file});
+    ASSERT_EQ(found.exit_code, 0) << found.err;
+    const json match = json::parse(read_file(file));
+    const double length = match["boundary"]["length"];
+    EXPECT_NEAR(length, join[2].get<double>(), 0.15 * join[2].get<double>()) << method;
+    EXPECT_LT(match["overlap_area"].get<double>(), 0.7 * length) << method;
+    EXPECT_LT(match["gap_area"].get<double>(), 0.7 * length) << method;
+  }
+}
+
 TEST(OutlineAssemble, KeepsTwoShapesApartAndPlacesEveryPiece) {
   const BrokenShapes shapes;
   const json assembly = shapes.assembled();

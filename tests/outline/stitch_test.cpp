@@ -6,7 +6,9 @@
 
 #include "core/random.hpp"
 #include "outline/detail/pose_fit.hpp"
+#include "outline/polygon.hpp"
 #include "outline/signal.hpp"
+#include "planted.hpp"
 
 namespace rejoin::outline {
 namespace {
@@ -62,6 +64,73 @@ TEST(Stitch, OverlapOfTwoSquaresIsExact) {
               1e-6);
   EXPECT_NEAR(overlap_area(rectangle(0, 0, 10, 10), rectangle(0, 0, 10, 10), {0.0, {11.0, 0.0}, false}), 0.0,
               1e-9);
+}
+
+/// Two rectangles beside each other, B moved; their common side is 60 long, from A's and B's lower corners.
+JoinAreas side_by_side(const Planar& pose) {
+  const JoinCandidate join{pose, 1.0, {100.0, 0.0, 60.0}};
+  return join_areas(rectangle(0, 0, 100, 60), rectangle(100, 0, 180, 60), join);
+}
+
+/// About the common lower corner.
+Planar turned(double angle_rad) {
+  const Planar turn{angle_rad, {}, false};
+  return {angle_rad, glm::dvec2(100, 0) - turn.direction({100, 0}), false};
+}
+
+TEST(JoinAreas, AreStripsAndWedgesBesideAStraightSide) {
+  EXPECT_NEAR(side_by_side({}).gap, 0.0, 1e-4);
+  EXPECT_NEAR(side_by_side({}).overlap, 0.0, 1e-4);
+  EXPECT_NEAR(side_by_side({0.0, {0.4, 0.0}, false}).gap, 24.0, 1e-4);
+  EXPECT_NEAR(side_by_side({0.0, {0.4, 0.0}, false}).overlap, 0.0, 1e-9);
+  EXPECT_NEAR(side_by_side({0.0, {-0.4, 0.0}, false}).gap, 0.0, 1e-4);
+  EXPECT_NEAR(side_by_side({0.0, {-0.4, 0.0}, false}).overlap, 24.0, 1e-4);
+  const double angle = 0.1;
+  EXPECT_NEAR(side_by_side(turned(-angle)).gap, 0.5 * 60.0 * 60.0 * std::sin(angle), 1e-4);
+  EXPECT_NEAR(side_by_side(turned(-angle)).overlap, 0.0, 1e-4);
+  // Turned into A, less the tip that stands above it.
+  const double tip = 60.0 / std::cos(angle) - 60.0;
+  EXPECT_NEAR(side_by_side(turned(angle)).overlap,
+              0.5 * 60.0 * 60.0 * std::tan(angle) - 0.5 * tip * tip / std::tan(angle), 1e-4);
+}
+
+TEST(JoinAreas, OfAPieceUpsideDownAreThoseOfItsMirrorImage) {
+  const Planar over{0.0, {0.4, 0.0}, true};
+  const JoinCandidate join{
+      over, 1.0, {100.0, 220.0, 60.0}};  // B's lower corner at the side is its last point
+  const JoinAreas areas = join_areas(rectangle(0, 0, 100, 60), rectangle(100, -60, 180, 0), join);
+  EXPECT_NEAR(areas.gap, 24.0, 1e-4);
+  EXPECT_NEAR(areas.overlap, 0.0, 1e-9);
+}
+
+/// Area of what lies in both by a fine raster.
+double counted_overlap(const Outline& a, const Outline& b, const Planar& pose) {
+  constexpr double kCell = 0.25;
+  const Outline placed = moved(b, pose);
+  glm::dvec2 low = a.points[0];
+  glm::dvec2 high = low;
+  for (const glm::dvec2& p : a.points) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  double cells = 0.0;
+  for (double y = low.y + 0.5 * kCell; y < high.y; y += kCell)
+    for (double x = low.x + 0.5 * kCell; x < high.x; x += kCell)
+      if (contains(a.points, {x, y}) && contains(placed.points, {x, y})) cells += 1.0;
+  return cells * kCell * kCell;
+}
+
+// Some 600 cells lie on the overlap's border, and each is off by half a cell at most, at random: a tenth of an unit squared
+// a root of 600.
+TEST(JoinAreas, OverlapOfRoughPiecesIsThatOfAFineRaster) {
+  const planted::Board board = planted::broken_board(2, 1, 0.05, 3);
+  const Planar truth = inverse(board.poses[0]) * board.poses[1];
+  const Planar pressed = Planar{0.02, {3.0, -2.0}, false} * truth;
+  for (const Planar& pose : {truth, pressed}) {
+    const Outline& a = board.pieces[0].outline;
+    const Outline& b = board.pieces[1].outline;
+    EXPECT_NEAR(join_areas(a, b, {pose, 1.0, {}}).overlap, counted_overlap(a, b, pose), 3.0);
+  }
 }
 
 TEST(Stitch, UnionClosesNarrowGapsAndKeepsTheRest) {

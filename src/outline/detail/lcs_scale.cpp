@@ -170,13 +170,12 @@ std::optional<LcsFit> LcsScale::judged(const Prepared& a, const Prepared& b, con
   const auto& [middle_a, middle_b] = seam.pairs[seam.pairs.size() / 2];
   result.middle_a = a.turns.places[middle_a];
   result.middle_b = b.turns.places[middle_b];
-  result.join.gap_area = seam.gap_area;
-  result.join.overlap_area = overlap_area(a.coarse, b.coarse, pose);
+  const double overlap = overlap_area(a.coarse, b.coarse, pose);
   const double smaller = std::min(a.area, b.area);
   const double allowed = 3.0 * step_ * seam.length + 0.01 * smaller;
-  if (result.join.overlap_area > 2.0 * allowed) return std::nullopt;
-  result.evidence = agreement(a, b, seam, pose.flipped) *
-                    (1.0 - 0.5 * std::clamp(result.join.overlap_area / allowed - 0.5, 0.0, 1.0));
+  if (overlap > 2.0 * allowed) return std::nullopt;
+  result.evidence =
+      agreement(a, b, seam, pose.flipped) * (1.0 - 0.5 * std::clamp(overlap / allowed - 0.5, 0.0, 1.0));
   result.join.score = 1.0 / (1.0 + std::exp(-(result.evidence - kEvenEvidence) / kEvidenceScale));
   return result;
 }
