@@ -56,8 +56,7 @@ class OutlineAssembleCommand final : public Command {
     const Clock::time_point begin = Clock::now();
     if (json_) require_writable_file(*json_);
     if (out_) require_writable_folder(*out_);
-    outline::PieceSet set = outline::read_folder(folder_);
-    for (const std::string& note : set.notes) console.warning(note);
+    const outline::PieceSet set = load_folder(folder_, console);
     if (set.pieces.size() < 2) throw InputError(folder_, "holds one piece only", "give a folder of pieces");
     console.detail(fmt::format("read {} pieces in {:.2f} s", set.pieces.size(), seconds_since(begin)));
     const std::unique_ptr<outline::Matcher> matcher = make_matcher(method_);
@@ -67,11 +66,11 @@ class OutlineAssembleCommand final : public Command {
     console.detail(fmt::format("assembled after {:.2f} s", seconds_since(begin)));
     if (json_) {
       const OutlineSearch search{name_of(method_), seconds_since(begin), assembly.cancelled};
-      write_file(*json_, assembly_json(set.pieces, assembly, search));
+      write_file(*json_, assembly_json(set, assembly, search));
     }
     console.result(summary(set.pieces, assembly));
     if (out_) outline::write_assembly_pictures(*out_, set.pieces, assembly);
-    return context.cancelled() ? kInterrupted : kDone;
+    return context.cancelled() ? kInterrupted : finished_with(set, console);
   }
 
  private:

@@ -36,8 +36,7 @@ class OutlineCalibrateCommand final : public Command {
 
   ExitCode run(Console& console, Context& context) override {
     if (json_) require_writable_file(*json_);
-    const outline::PieceSet set = outline::read_folder(folder_);
-    for (const std::string& note : set.notes) console.warning(note);
+    const outline::PieceSet set = load_folder(folder_, console);
     const std::string path = joins_.value_or((std::filesystem::path(folder_) / "truth.json").string());
     const std::vector<outline::KnownJoin> joins = read_known_joins(path, set.pieces);
     const std::vector<outline::CalibratedLevel> levels =
@@ -45,7 +44,7 @@ class OutlineCalibrateCommand final : public Command {
     if (context.cancelled()) return kInterrupted;
     if (json_) write_file(*json_, calibration_json(levels));
     console.result(table(levels));
-    return kDone;
+    return finished_with(set, console);
   }
 
  private:

@@ -65,6 +65,21 @@ outline::Piece load_piece(const std::string& path, Console& console) {
   return std::move(set.pieces.front());
 }
 
+outline::PieceSet load_folder(const std::string& folder, Console& console) {
+  outline::PieceSet set = outline::read_folder(folder);
+  for (const std::string& note : set.notes) console.warning(note);
+  for (const outline::LeftOut& file : set.unusable) console.warning(file.reason);
+  return set;
+}
+
+ExitCode finished_with(const outline::PieceSet& set, Console& console) {
+  if (set.unusable.empty()) return kDone;
+  console.warning(
+      fmt::format("{} of the folder's files cannot be used; mend them and run the same command again",
+                  set.unusable.size()));
+  return kFailure;
+}
+
 const char* outline_verdict(double score) {
   return score >= kJoin ? "join" : score >= kUnsure ? "unsure" : "no join";
 }

@@ -65,8 +65,9 @@ std::string outline_match_json(const outline::Piece& a, const outline::Piece& b,
   return text_of(json);
 }
 
-std::string assembly_json(const std::vector<outline::Piece>& pieces, const outline::Assembly& assembly,
+std::string assembly_json(const outline::PieceSet& set, const outline::Assembly& assembly,
                           const OutlineSearch& search) {
+  const std::vector<outline::Piece>& pieces = set.pieces;
   ordered_json fragments = ordered_json::object();
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const outline::Placement& placement = assembly.placements[i];
@@ -85,12 +86,16 @@ std::string assembly_json(const std::vector<outline::Piece>& pieces, const outli
     touches.push_back({{"a", pieces[touch.a].name}, {"b", pieces[touch.b].name}, {"contact", touch.contact}});
   ordered_json unplaced = ordered_json::array();
   for (const std::size_t piece : assembly.unplaced) unplaced.push_back(pieces[piece].name);
+  ordered_json unusable = ordered_json::array();
+  for (const outline::LeftOut& file : set.unusable)
+    unusable.push_back({{"name", file.name}, {"reason", file.reason}});
   const ordered_json json = {
       {"schema", "rejoin.assembly/1"},
       {"fragments", fragments},
       {"joins", joins},
       {"touches", touches},
       {"unplaced", unplaced},
+      {"unusable", unusable},
       {"rms", assembly.rms},
       {"search",
        {{"method", search.method}, {"seconds", search.seconds}, {"interrupted", search.interrupted}}},

@@ -6,6 +6,7 @@
 
 #include "outline/assembly.hpp"
 #include "outline/outline.hpp"
+#include "outline/read.hpp"
 
 namespace rejoin::cli {
 
@@ -24,7 +25,7 @@ std::string outline_match_json(const outline::Piece& a, const outline::Piece& b,
                                const outline::PairResult& result, const OutlineSearch& search);
 
 /// Schema "rejoin.assembly/1".
-std::string assembly_json(const std::vector<outline::Piece>& pieces, const outline::Assembly& assembly,
+std::string assembly_json(const outline::PieceSet& set, const outline::Assembly& assembly,
                           const OutlineSearch& search);
 
 }  // namespace rejoin::cli

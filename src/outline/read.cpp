@@ -109,10 +109,15 @@ PieceSet read_folder(const std::string& folder, const ExtractOptions& options) {
   std::sort(files.begin(), files.end());
   PieceSet all;
   for (const fs::path& file : files) {
-    PieceSet set = read_pieces(file.string(), options);
-    std::move(set.pieces.begin(), set.pieces.end(), std::back_inserter(all.pieces));
-    std::move(set.notes.begin(), set.notes.end(), std::back_inserter(all.notes));
+    try {
+      PieceSet set = read_pieces(file.string(), options);
+      std::move(set.pieces.begin(), set.pieces.end(), std::back_inserter(all.pieces));
+      std::move(set.notes.begin(), set.notes.end(), std::back_inserter(all.notes));
+    } catch (const Error& error) {
+      all.unusable.push_back({file.filename().string(), error.what()});
+    }
   }
+  if (all.pieces.empty()) throw InputError(folder, "holds nothing that can be used", all.unusable[0].reason);
   return all;
 }
 

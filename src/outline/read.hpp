@@ -9,10 +9,17 @@
 
 namespace rejoin::outline {
 
+/// What a folder holds and its pieces do not.
+struct LeftOut {
+  std::string name;    ///< of the file
+  std::string reason;  ///< one line for the user
+};
+
 /// What a file or a folder holds.
 struct PieceSet {
   std::vector<Piece> pieces;       ///< of one file: largest first
   std::vector<std::string> notes;  ///< repairs and doubts, "FILE: ..." each; for the user
+  std::vector<LeftOut> unusable;   ///< files of a folder that read_pieces() refuses, with its reasons
 };
 
 /// Pieces of one file, by its name's ending:
@@ -28,7 +35,7 @@ PieceSet read_pieces(const std::string& path, const ExtractOptions& options = {}
 
 /// The pieces of all files of a folder that read_pieces() knows, in the order of their names.
 /// \throws IoError    no such folder
-/// \throws InputError no file in it is known, or one cannot be used
+/// \throws InputError no file in it is known, or none can be used
 PieceSet read_folder(const std::string& folder, const ExtractOptions& options = {});
 
 }  // namespace rejoin::outline

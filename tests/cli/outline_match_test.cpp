@@ -210,6 +210,29 @@ TEST(OutlineMatch, APictureThatClaimsToBeHugeIsRefusedByItsHeader) {
   expect_refusal({"outline", "match", folder / "huge.png", good_picture(folder)}, "120 million");
 }
 
+TEST(OutlineAssemble, AFileThatCannotBeUsedIsToldAndTheRestGoesOn) {
+  const BrokenShapes shapes;
+  const json without = shapes.assembled();
+  write_file(shapes.pieces + "/bad.png", "no picture");
+  const std::string file = shapes / "rest.json";
+  const Finished done = run({"outline", "assemble", shapes.pieces, "--json", file});
+  EXPECT_EQ(done.exit_code, 1);
+  EXPECT_NE(done.err.find("bad.png: is no PNG"), std::string::npos) << done.err;
+  EXPECT_NE(done.err.find("1 of the folder's files cannot be used"), std::string::npos) << done.err;
+  const json rest = json::parse(read_file(file));
+  EXPECT_EQ(rest["fragments"], without["fragments"]);
+  EXPECT_EQ(rest["joins"], without["joins"]);
+  ASSERT_EQ(rest["unusable"].size(), 1U);
+  EXPECT_EQ(rest["unusable"][0]["name"], "bad.png");
+}
+
+TEST(OutlineAssemble, AFolderOfNothingUsableIsRefusedWithTheReason) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "bad");
+  write_file(folder / "bad/one.png", "no picture");
+  expect_refusal({"outline", "assemble", folder / "bad"}, "one.png: is no PNG");
+}
+
 TEST(OutlineAssemble, AFolderWithoutPiecesIsRefused) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "empty");
