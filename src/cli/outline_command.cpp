@@ -69,6 +69,7 @@ outline::PieceSet load_folder(const std::string& folder, Console& console) {
   outline::PieceSet set = outline::read_folder(folder);
   for (const std::string& note : set.notes) console.warning(note);
   for (const outline::LeftOut& file : set.unusable) console.warning(file.reason);
+  for (const outline::LeftOut& piece : set.repeated) console.warning(piece.reason);
   return set;
 }
 

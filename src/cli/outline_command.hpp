@@ -32,7 +32,7 @@ std::unique_ptr<outline::Matcher> make_matcher(OutlineMethod method,
 /// The largest piece of a file; tells of repairs and of further pieces.
 outline::Piece load_piece(const std::string& path, Console& console);
 
-/// The pieces of a folder; tells of repairs and of files that cannot be used.
+/// The pieces of a folder; tells of repairs, of files that cannot be used and of copies.
 outline::PieceSet load_folder(const std::string& folder, Console& console);
 
 /// The exit code of a command that has used a folder: kFailure, told, if a file of it could not be used.

@@ -32,6 +32,12 @@ ordered_json candidate_json(const outline::Piece& a, const outline::Piece& b,
           {"overlap_area", areas.overlap}};
 }
 
+ordered_json to_json(const std::vector<outline::LeftOut>& list) {
+  ordered_json json = ordered_json::array();
+  for (const outline::LeftOut& one : list) json.push_back({{"name", one.name}, {"reason", one.reason}});
+  return json;
+}
+
 }  // namespace
 
 ordered_json to_json(const outline::Planar& pose) {
@@ -86,16 +92,14 @@ std::string assembly_json(const outline::PieceSet& set, const outline::Assembly&
     touches.push_back({{"a", pieces[touch.a].name}, {"b", pieces[touch.b].name}, {"contact", touch.contact}});
   ordered_json unplaced = ordered_json::array();
   for (const std::size_t piece : assembly.unplaced) unplaced.push_back(pieces[piece].name);
-  ordered_json unusable = ordered_json::array();
-  for (const outline::LeftOut& file : set.unusable)
-    unusable.push_back({{"name", file.name}, {"reason", file.reason}});
   const ordered_json json = {
       {"schema", "rejoin.assembly/1"},
       {"fragments", fragments},
       {"joins", joins},
       {"touches", touches},
       {"unplaced", unplaced},
-      {"unusable", unusable},
+      {"unusable", to_json(set.unusable)},
+      {"repeated", to_json(set.repeated)},
       {"rms", assembly.rms},
       {"search",
        {{"method", search.method}, {"seconds", search.seconds}, {"interrupted", search.interrupted}}},

@@ -66,6 +66,35 @@ std::vector<Outline> read_outlines(const std::string& path, Kind kind, std::vect
   return outlines;
 }
 
+bool same(const Outline& a, const Outline& b) {
+  return a.points == b.points && a.holes == b.holes && a.colour == b.colour;
+}
+
+/// Leaves out what repeats another piece: no two scans agree in every coordinate.  The shortest name stays, as copies are
+/// mostly called "copy of" or "(2)".
+void take_out_repeats(PieceSet& set) {
+  std::vector<Piece> kept;
+  kept.reserve(set.pieces.size());
+  for (Piece& piece : set.pieces) {
+    const auto first = std::find_if(kept.begin(), kept.end(),
+                                    [&](const Piece& other) { return same(other.outline, piece.outline); });
+    if (first == kept.end()) {
+      kept.push_back(std::move(piece));
+      continue;
+    }
+    const bool better = piece.name.size() < first->name.size();
+    const std::string stays = better ? piece.name : first->name;
+    const std::string goes = better ? first->name : piece.name;
+    const char* what = kind_of(piece.path) == Kind::Picture ? "picture" : "outline";
+    set.repeated.push_back(
+        {goes, fmt::format("{} and {} are the same {}; {} is left out", stays, goes, what, goes)});
+    if (!better) continue;
+    kept.erase(first);
+    kept.push_back(std::move(piece));
+  }
+  set.pieces = std::move(kept);
+}
+
 }  // namespace
 
 PieceSet read_pieces(const std::string& path, const ExtractOptions& options) {
@@ -117,6 +146,7 @@ PieceSet read_folder(const std::string& folder, const ExtractOptions& options) {
       all.unusable.push_back({file.filename().string(), error.what()});
     }
   }
+  take_out_repeats(all);
   if (all.pieces.empty()) throw InputError(folder, "holds nothing that can be used", all.unusable[0].reason);
   return all;
 }

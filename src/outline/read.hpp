@@ -11,7 +11,7 @@ namespace rejoin::outline {
 
 /// What a folder holds and its pieces do not.
 struct LeftOut {
-  std::string name;    ///< of the file
+  std::string name;    ///< of the file or piece
   std::string reason;  ///< one line for the user
 };
 
@@ -20,6 +20,7 @@ struct PieceSet {
   std::vector<Piece> pieces;       ///< of one file: largest first
   std::vector<std::string> notes;  ///< repairs and doubts, "FILE: ..." each; for the user
   std::vector<LeftOut> unusable;   ///< files of a folder that read_pieces() refuses, with its reasons
+  std::vector<LeftOut> repeated;   ///< pieces of a folder that are the same, point for point, as another
 };
 
 /// Pieces of one file, by its name's ending:
@@ -33,7 +34,7 @@ struct PieceSet {
 /// \throws InputError its content is no outline; the message names the place
 PieceSet read_pieces(const std::string& path, const ExtractOptions& options = {});
 
-/// The pieces of all files of a folder that read_pieces() knows, in the order of their names.
+/// The pieces of all files of a folder that read_pieces() knows, in the order of their names; copies of one count once.
 /// \throws IoError    no such folder
 /// \throws InputError no file in it is known, or none can be used
 PieceSet read_folder(const std::string& folder, const ExtractOptions& options = {});

@@ -226,6 +226,23 @@ TEST(OutlineAssemble, AFileThatCannotBeUsedIsToldAndTheRestGoesOn) {
   EXPECT_EQ(rest["unusable"][0]["name"], "bad.png");
 }
 
+TEST(OutlineAssemble, ACopyOfAPieceIsToldAndLeftOut) {
+  const BrokenShapes shapes;
+  const json without = shapes.assembled();
+  std::filesystem::copy_file(shapes.pieces + "/piece_001.csv", shapes.pieces + "/piece_001 copy.csv");
+  const std::string file = shapes / "with.json";
+  const Finished done = run({"outline", "assemble", shapes.pieces, "--json", file});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  const std::string told =
+      "piece_001.csv and piece_001 copy.csv are the same outline; piece_001 copy.csv is left out";
+  EXPECT_NE(done.err.find(told), std::string::npos) << done.err;
+  const json with = json::parse(read_file(file));
+  EXPECT_EQ(with["fragments"], without["fragments"]);
+  ASSERT_EQ(with["repeated"].size(), 1U);
+  EXPECT_EQ(with["repeated"][0]["name"], "piece_001 copy.csv");
+  EXPECT_EQ(with["joins"], without["joins"]);
+}
+
 TEST(OutlineAssemble, AFolderOfNothingUsableIsRefusedWithTheReason) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "bad");
