@@ -50,6 +50,8 @@ Side measure_side(const Silhouette& a, const Silhouette& b, const Planar& motion
     const double slope = glm::length(inward);
     if (slope <= 0.0) continue;
     const double facing = glm::dot(a_to_b.direction(a.normals[i]), inward) / slope;
+    // Side by side two borders face each other; two scans of one piece on one spot have borders that look the same way.
+    if (facing < -kFacing) side.intruding += 1.0;
     if (facing < kFacing) continue;
     side.count += 1.0;
     side.squares += depth * depth;

@@ -54,8 +54,10 @@ struct Silhouette {
 struct Contact {
   double length = 0.0;       ///< of border within the tolerance of the other's, facing it
   double information = 0.0;  ///< how much better the borders follow each other than chance, in nats; >= 0
-  double intrusion = 0.0;    ///< length of border that lies deeper in the other piece than the tolerance
-  double rms = 0.0;          ///< distance of the borders along the contact
+  double intrusion =
+      0.0;  ///< length of border that lies deeper in the other piece than the tolerance, or along the
+            ///< other border on the same side of it, so that both pieces cover the place
+  double rms = 0.0;  ///< distance of the borders along the contact
 };
 
 /// Lays B on A with a pose and measures.  Both silhouettes have about the same step.

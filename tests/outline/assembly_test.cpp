@@ -86,6 +86,23 @@ TEST(Assembly, RefusesAJoinThatMakesPiecesOverlap) {
   EXPECT_LT(misplaced(board, assembly, 0, 2), 0.5);
 }
 
+TEST(Assembly, ASecondScanOfAPieceIsNotLaidOnTheFirst) {
+  planted::Board board = planted::broken_board(3, 3, 0.05, 12);
+  const std::vector<AssemblyJoin> once = assembled(board.pieces).joins;
+  Random random(9);
+  board.pieces.push_back(planted::moved(board.pieces[4], {1.0, {900.0, 40.0}, false}, 0.05, random));
+  const Assembly assembly = assembled(board.pieces);
+  ASSERT_EQ(assembly.unplaced.size(), 1U);
+  EXPECT_TRUE(assembly.unplaced[0] == 4 || assembly.unplaced[0] == 9) << assembly.unplaced[0];
+  ASSERT_EQ(assembly.joins.size(), once.size());
+  const auto total = [](const std::vector<AssemblyJoin>& joins) {
+    double sum = 0.0;
+    for (const AssemblyJoin& join : joins) sum += join.contact;
+    return sum;
+  };
+  EXPECT_NEAR(total(assembly.joins), total(once), 0.01 * total(once));  // the scans' noise
+}
+
 TEST(Assembly, TellsOfAJoinThatNoPairWasFoundFor) {
   const planted::Board board = planted::broken_board(2, 2, 0.05, 43);
   // Pieces 0 and 1, 0 and 2, 1 and 3: nothing was found for 2 and 3, which lie side by side all the same.

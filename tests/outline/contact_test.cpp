@@ -72,6 +72,15 @@ TEST(Contact, OfTwoRectanglesIsTheirCommonSide) {
   EXPECT_GT(deep.intrusion, 60.0);
 }
 
+TEST(Contact, APieceOnItselfIntrudesWithItsWholeBorder) {
+  const Silhouette a(rectangle({0, 0}, {100, 80}), 1.0, 0.0);
+  for (const double off : {0.0, 0.3, -0.3}) {
+    const Contact same = measure_contact(a, a, Planar{0.0, {off, 0.0}, false}, 0.75);
+    EXPECT_NEAR(same.intrusion, 360.0, 8.0) << off;  // at the corners the field turns
+    EXPECT_LT(same.length, 8.0) << off;
+  }
+}
+
 TEST(Contact, SettlingClosesAGap) {
   const Silhouette a(rectangle({0, 0}, {100, 80}), 1.0, 0.0);
   const Silhouette b(rectangle({0, 0}, {60, 50}), 1.0, 0.0);
