@@ -31,11 +31,14 @@ std::string summary(const std::vector<outline::Piece>& pieces, const outline::As
                                       [](const outline::AssemblyJoin& join) { return join.proposed; });
   std::string text = fmt::format(
       "{} of {} pieces placed; {} joins, {} of them found pair by pair, borders {:.3g} apart (rms)\n",
-      pieces.size() - assembly.unplaced.size(), pieces.size(), assembly.joins.size(), proposed, assembly.rms);
+      pieces.size() - assembly.unplaced.size() - assembly.untried.size(), pieces.size(),
+      assembly.joins.size(), proposed, assembly.rms);
   for (std::size_t group = 0; group < sizes.size() && sizes[group] > 1; ++group)
     text += fmt::format("  object {}: {} pieces\n", group + 1, sizes[group]);
   for (const std::size_t piece : assembly.unplaced)
     text += fmt::format("  fits nowhere: {}\n", pieces[piece].name);
+  for (const std::size_t piece : assembly.untried)
+    text += fmt::format("  not tried with all others: {}\n", pieces[piece].name);
   return text;
 }
 
@@ -64,13 +67,15 @@ class OutlineAssembleCommand final : public Command {
     console.detail(fmt::format("prepared after {:.2f} s", seconds_since(begin)));
     const outline::Assembly assembly = outline::assemble(set.pieces, *matcher, {}, context);
     console.detail(fmt::format("assembled after {:.2f} s", seconds_since(begin)));
+    console.end_progress();
+    if (assembly.cancelled) console.warning("interrupted; what follows is less than possible");
     if (json_) {
       const OutlineSearch search{name_of(method_), seconds_since(begin), assembly.cancelled};
       write_file(*json_, assembly_json(set, assembly, search));
     }
     console.result(summary(set.pieces, assembly));
     if (out_) outline::write_assembly_pictures(*out_, set.pieces, assembly);
-    return context.cancelled() ? kInterrupted : finished_with(set, console);
+    return assembly.cancelled ? kInterrupted : finished_with(set, console);
   }
 
  private:

@@ -41,7 +41,11 @@ class OutlineCalibrateCommand final : public Command {
     const std::vector<outline::KnownJoin> joins = read_known_joins(path, set.pieces);
     const std::vector<outline::CalibratedLevel> levels =
         outline::calibrate(set.pieces, joins, options_, context);
-    if (context.cancelled()) return kInterrupted;
+    console.end_progress();
+    if (context.cancelled()) {
+      console.warning("interrupted; nothing was written");
+      return kInterrupted;
+    }
     if (json_) write_file(*json_, calibration_json(levels));
     console.result(table(levels));
     return finished_with(set, console);

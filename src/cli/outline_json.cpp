@@ -92,12 +92,15 @@ std::string assembly_json(const outline::PieceSet& set, const outline::Assembly&
     touches.push_back({{"a", pieces[touch.a].name}, {"b", pieces[touch.b].name}, {"contact", touch.contact}});
   ordered_json unplaced = ordered_json::array();
   for (const std::size_t piece : assembly.unplaced) unplaced.push_back(pieces[piece].name);
+  ordered_json untried = ordered_json::array();
+  for (const std::size_t piece : assembly.untried) untried.push_back(pieces[piece].name);
   const ordered_json json = {
       {"schema", "rejoin.assembly/1"},
       {"fragments", fragments},
       {"joins", joins},
       {"touches", touches},
       {"unplaced", unplaced},
+      {"untried", untried},
       {"unusable", to_json(set.unusable)},
       {"repeated", to_json(set.repeated)},
       {"rms", assembly.rms},

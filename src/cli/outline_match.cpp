@@ -71,6 +71,8 @@ class OutlineMatchCommand final : public Command {
     matcher->prepare(pieces);
     const outline::PairResult result = matcher->match(0, 1, context);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    console.end_progress();
+    if (context.cancelled()) console.warning("interrupted; what follows is the best so far");
     if (json_) {
       const OutlineSearch search{name_of(method_), seconds.count(), context.cancelled()};
       write_file(*json_, outline_match_json(pieces[0], pieces[1], result, search));

@@ -71,6 +71,7 @@ ExitCode match_rims(const std::string& path_a, const std::string& path_b,
   const std::vector<rims::Proposal> proposals = rims::propose(a, b, {}, context);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
   console.end_progress();
+  if (context.cancelled()) console.warning("interrupted; what follows is the best so far");
   if (json) write_file(*json, proposals_json(a, b, proposals, seconds.count(), context.cancelled()));
   console.result(summary(proposals));
   return context.cancelled() ? kInterrupted : kDone;

@@ -49,11 +49,11 @@ class OutlineShatterCommand final : public Command {
     require_empty();
     context.report("breaking", 0.0);
     const outline::Shattered broken = outline::shatter(options, context);
-    if (context.cancelled()) return kInterrupted;
+    if (context.cancelled()) return interrupted(console);
     const std::string ending = format_ == Format::Png ? ".png" : ".csv";
     const std::filesystem::path folder(folder_);
     for (std::size_t n = 0; n < broken.pieces.size(); ++n) {
-      if (context.cancelled()) return kInterrupted;
+      if (context.cancelled()) return interrupted(console);
       context.report("writing pieces", static_cast<double>(n) / static_cast<double>(broken.pieces.size()));
       write_file(folder / (broken.pieces[n].piece.name + ending), content_of(broken.pieces[n], options));
     }
@@ -65,6 +65,12 @@ class OutlineShatterCommand final : public Command {
   }
 
  private:
+  static ExitCode interrupted(Console& console) {
+    console.end_progress();
+    console.warning("interrupted; the folder is not complete");
+    return kInterrupted;
+  }
+
   /// Pieces of another run among the new ones would be taken for theirs.
   void require_empty() const {
     require_writable_folder(folder_);

@@ -394,17 +394,28 @@ Assembly assemble(const std::vector<Piece>& pieces, const Matcher& matcher, cons
   for (std::size_t a = 0; a < pieces.size(); ++a)
     for (std::size_t b = a + 1; b < pieces.size(); ++b) names.emplace_back(a, b);
   std::vector<PairResult> pairs(names.size());
+  std::vector<char> matched(names.size(), 0);
   // In portions, so that progress is told from one thread and a wish to stop is heard.
   constexpr std::size_t kPortion = 64;
   for (std::size_t begin = 0; begin < names.size() && !context.cancelled(); begin += kPortion) {
     const std::size_t count = std::min(kPortion, names.size() - begin);
     parallel_for(count, 1, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = begin + first; i < begin + last; ++i)
+      for (std::size_t i = begin + first; i < begin + last; ++i) {
         pairs[i] = matcher.match(names[i].first, names[i].second, context);
+        matched[i] = context.cancelled() ? 0 : 1;
+      }
     });
     context.report("matching pairs", static_cast<double>(begin + count) / static_cast<double>(names.size()));
   }
-  return assemble(pieces, pairs, options, context);
+  Assembly assembly = assemble(pieces, pairs, options, context);
+  std::set<std::size_t> open;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (matched[i] == 0) open.insert({names[i].first, names[i].second});
+  const auto tried = std::stable_partition(assembly.unplaced.begin(), assembly.unplaced.end(),
+                                           [&](std::size_t piece) { return open.count(piece) == 0; });
+  assembly.untried.assign(tried, assembly.unplaced.end());
+  assembly.unplaced.erase(tried, assembly.unplaced.end());
+  return assembly;
 }
 
 }  // namespace rejoin::outline

@@ -40,6 +40,8 @@ struct Assembly {
   std::vector<AssemblyJoin> joins;    ///< all that share more than a corner, best first
   std::vector<AssemblyJoin> touches;  ///< those that share less
   std::vector<std::size_t> unplaced;  ///< pieces that fit nowhere
+  std::vector<std::size_t>
+      untried;  ///< pieces without a place whose pairs were not all looked at; see cancelled
   std::vector<std::vector<double>>
       similarity;          ///< length of the common border of each pair's best join, 0 if none
   double rms = 0.0;        ///< distance of the borders along all joins, file units
@@ -51,7 +53,8 @@ struct Assembly {
 /// a loop open is refused; pieces that stand in the way of a better join are taken off again.  At the end the error is
 /// spread over all joins by least squares.
 /// \param matcher  prepared with these pieces
-/// \return for a cancelled context: what the pairs matched so far give
+/// \return for a cancelled context: what the pairs matched so far give; pieces that might fit where nobody looked are
+///         `untried`, not `unplaced`
 /// \source zhang 2016, section 4.4
 Assembly assemble(const std::vector<Piece>& pieces, const Matcher& matcher, const AssemblyOptions& options,
                   const Context& context);

@@ -243,6 +243,28 @@ TEST(OutlineAssemble, ACopyOfAPieceIsToldAndLeftOut) {
   EXPECT_EQ(with["joins"], without["joins"]);
 }
 
+// 24 pieces are 276 pairs, of which the first portion alone takes longer than the signal needs.
+TEST(OutlineAssemble, AfterCtrlCTellsWhichPiecesWereNotTried) {
+  const TemporaryFolder folder;
+  const std::string pieces = folder / "pieces";
+  ASSERT_EQ(
+      run({"outline", "shatter", pieces, "--shapes", "3", "--pieces", "24", "--resolution", "60"}).exit_code,
+      0);
+  const std::string file = folder / "assembly.json";
+  Running running({"outline", "assemble", pieces, "--json", file, "--verbose", "--threads", "1"});
+  ASSERT_TRUE(running.wait_for_stderr("prepared after"));
+  running.interrupt();
+  const Finished finished = running.finish();
+  EXPECT_EQ(finished.exit_code, 130);
+  EXPECT_NE(finished.err.find("interrupted"), std::string::npos) << finished.err;
+  EXPECT_EQ(finished.out.find("fits nowhere"), std::string::npos) << finished.out;
+  EXPECT_NE(finished.out.find("not tried with all others: piece_023.csv"), std::string::npos) << finished.out;
+  const json assembly = json::parse(read_file(file));
+  EXPECT_TRUE(assembly["search"]["interrupted"].get<bool>());
+  EXPECT_TRUE(assembly["unplaced"].empty());
+  EXPECT_FALSE(assembly["untried"].empty());
+}
+
 TEST(OutlineAssemble, AFolderOfNothingUsableIsRefusedWithTheReason) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "bad");

@@ -166,7 +166,33 @@ TEST(Assembly, OfACancelledSearchHoldsEveryPiece) {
   const Assembly assembly = assembled(board.pieces, context);
   EXPECT_TRUE(assembly.cancelled);
   EXPECT_EQ(assembly.placements.size(), 4U);
-  EXPECT_EQ(assembly.unplaced.size(), 4U);
+  EXPECT_EQ(assembly.untried.size(), 4U);
+  EXPECT_TRUE(assembly.unplaced.empty());
+}
+
+/// Finds nothing and cancels its context at the pair (1, 2).
+class StoppedMatcher final : public Matcher {
+ public:
+  explicit StoppedMatcher(Context& context) : context_(context) {}
+  void prepare(const std::vector<Piece>& /*pieces*/) override {}
+  PairResult match(std::size_t a, std::size_t b, const Context& /*context*/) const override {
+    if (a == 1 && b == 2) context_.cancel();
+    return {};
+  }
+
+ private:
+  Context& context_;
+};
+
+// Of three pieces the pairs (0, 1) and (0, 2) are looked at, and (1, 2) is not.
+TEST(Assembly, PiecesThatNobodyComparedAreNotSaidToFitNowhere) {
+  const ThreadLimit limit(1);
+  const planted::Board board = planted::broken_board(3, 1, 0.05, 62);
+  Context context;
+  const StoppedMatcher matcher(context);
+  const Assembly assembly = assemble(board.pieces, matcher, {}, context);
+  EXPECT_EQ(assembly.unplaced, std::vector<std::size_t>{0});
+  EXPECT_EQ(assembly.untried, (std::vector<std::size_t>{1, 2}));
 }
 
 TEST(Assembly, OfNoPiecesIsEmpty) {
