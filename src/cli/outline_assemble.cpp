@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <optional>
 
 #include "cli/arguments.hpp"
@@ -11,6 +12,7 @@
 #include "core/files.hpp"
 #include "outline/assembly.hpp"
 #include "outline/assembly_pictures.hpp"
+#include "report/similarity_picture.hpp"
 
 namespace rejoin::cli {
 namespace {
@@ -74,11 +76,16 @@ class OutlineAssembleCommand final : public Command {
       write_file(*json_, assembly_json(set, assembly, search));
     }
     console.result(summary(set.pieces, assembly));
-    if (out_) outline::write_assembly_pictures(*out_, set.pieces, assembly);
+    if (out_) write_pictures(set.pieces, assembly);
     return assembly.cancelled ? kInterrupted : finished_with(set, console);
   }
 
  private:
+  void write_pictures(const std::vector<outline::Piece>& pieces, const outline::Assembly& assembly) const {
+    outline::write_assembly_pictures(*out_, pieces, assembly);
+    report::write_similarity_picture(std::filesystem::path(*out_) / "similarity.png", pieces, assembly);
+  }
+
   std::string folder_;
   std::optional<std::string> json_;
   std::optional<std::string> out_;

@@ -43,8 +43,8 @@ struct Assembly {
   std::vector<std::size_t>
       untried;  ///< pieces without a place whose pairs were not all looked at; see cancelled
   std::vector<std::vector<double>>
-      similarity;          ///< length of the common border of each pair's best join, 0 if none
-  double rms = 0.0;        ///< distance of the borders along all joins, file units
+      similarity;    ///< length of the common border of each pair's best candidate, used or not; 0 if none
+  double rms = 0.0;  ///< distance of the borders along all joins, file units
   bool cancelled = false;  ///< not all pairs were looked at
 };
 

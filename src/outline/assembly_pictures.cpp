@@ -201,23 +201,6 @@ cv::Mat joins_picture(const std::vector<Placed>& members, const std::vector<Asse
   return canvas;
 }
 
-cv::Mat similarity_picture(const std::vector<std::vector<double>>& similarity) {
-  const auto count = static_cast<int>(similarity.size());
-  double most = 0.0;
-  for (const auto& row : similarity) most = std::max(most, *std::max_element(row.begin(), row.end()));
-  cv::Mat cells(count, count, CV_8UC1, cv::Scalar(0));
-  for (int y = 0; y < count; ++y)
-    for (int x = 0; x < count; ++x)
-      cells.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(std::lround(
-          most > 0.0 ? 255.0 * similarity[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] / most
-                     : 0.0));
-  const int cell = std::clamp(800 / std::max(1, count), 1, 40);
-  cv::Mat large;
-  cv::resize(cells, large, cv::Size(), cell, cell, cv::INTER_NEAREST);
-  cv::applyColorMap(large, large, cv::COLORMAP_VIRIDIS);
-  return large;
-}
-
 }  // namespace
 
 std::vector<std::uint8_t> assembled_png(const std::vector<Piece>& pieces, const std::vector<Planar>& poses,
@@ -241,7 +224,6 @@ void write_assembly_pictures(const std::filesystem::path& folder, const std::vec
     write(folder / ("object_" + number + ".png"), object_picture(objects[k], view));
     write(folder / ("joins_" + number + ".png"), joins_picture(objects[k], assembly.joins, view));
   }
-  if (!assembly.similarity.empty()) write(folder / "similarity.png", similarity_picture(assembly.similarity));
 }
 
 }  // namespace rejoin::outline

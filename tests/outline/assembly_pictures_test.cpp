@@ -42,7 +42,6 @@ Assembly side_by_side() {
   Assembly assembly;
   assembly.placements = {{Planar{}, 0, 0.9}, {Planar{M_PI, {99.0, 49.0}, false}, 0, 0.9}};
   assembly.joins = {{0, 1, 0.9, 30.0}};
-  assembly.similarity = {{0.0, 30.0}, {30.0, 0.0}};
   return assembly;
 }
 
