@@ -16,6 +16,10 @@
 namespace rejoin::cli {
 namespace {
 
+std::string verdict_of(const outline::PairResult& result) {
+  return outline_verdict(result.candidates.empty() ? 0.0 : result.candidates.front().score);
+}
+
 std::string summary(const outline::Piece& a, const outline::Piece& b, const outline::PairResult& result) {
   if (result.candidates.empty()) return "no join, nothing fits\n";
   const outline::JoinCandidate& best = result.candidates.front();
@@ -79,7 +83,7 @@ class OutlineMatchCommand final : public Command {
     }
     console.result(summary(pieces[0], pieces[1], result));
     if (out_ && !context.cancelled())
-      report::write_outline_match_pictures(*out_, pieces[0], pieces[1], result);
+      report::write_outline_match_pictures(*out_, pieces[0], pieces[1], result, verdict_of(result));
     return context.cancelled() ? kInterrupted : kDone;
   }
 

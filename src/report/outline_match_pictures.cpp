@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <string_view>
@@ -52,6 +53,13 @@ View view_of(const std::vector<Polygon>& shown, int panel) {
   const double longest = std::max({high.x - low.x, high.y - low.y, 1e-300});
   return {
       (low + high) / 2.0, (kPanel - 2.0 * kInset) / longest, {(panel + 0.5) * kPanel, kTop + 0.5 * kPanel}};
+}
+
+/// A's and B's panels, both at the scale of the larger piece, so that the marked stretches are as long as each other.
+std::array<View, 2> views_apart(const outline::Piece& a, const outline::Piece& b) {
+  std::array<View, 2> views{view_of({a.outline.points}, 0), view_of({b.outline.points}, 1)};
+  views[0].scale = views[1].scale = std::min(views[0].scale, views[1].scale);
+  return views;
 }
 
 Polygon moved(const Polygon& polygon, const outline::Planar& pose) {
@@ -146,32 +154,35 @@ void draw_curvatures(Image& image, const outline::Outline& a, const outline::Out
 }
 
 void draw_joined(Image& image, const outline::Piece& a, const outline::Piece& b,
-                 const outline::JoinCandidate& best) {
+                 const outline::JoinCandidate& best, const std::string& verdict) {
   const View joined = view_of({a.outline.points, moved(b.outline.points, best.pose)}, 2);
   draw_piece(image, joined, a.outline, {}, kFillA);
   draw_piece(image, joined, b.outline, best.pose, kFillB);
   const Polygon on_a = stretch(a.outline.points, best.boundary.begin_a, best.boundary.length, kSamples);
   const Polygon on_b = stretch(b.outline.points, best.boundary.begin_b, -best.boundary.length, kSamples);
-  draw_curve(image, view_of({a.outline.points}, 0), on_a, {}, kMark);
-  draw_curve(image, view_of({b.outline.points}, 1), on_b, {}, kMarkB);
+  const auto [view_a, view_b] = views_apart(a, b);
+  draw_curve(image, view_a, on_a, {}, kMark);
+  draw_curve(image, view_b, on_b, {}, kMarkB);
   draw_curve(image, joined, on_a, {}, kMark);
-  draw_text(image, 2 * kPanel + kInset, 34, fmt::format("joined, score {:.3f}", best.score),
+  draw_text(image, 2 * kPanel + kInset, 34, fmt::format("{}, score {:.3f}: best pose", verdict, best.score),
             {15, kInk, Align::Left, true});
 }
 
 }  // namespace
 
 void write_outline_match_pictures(const std::filesystem::path& folder, const outline::Piece& a,
-                                  const outline::Piece& b, const outline::PairResult& result) {
+                                  const outline::Piece& b, const outline::PairResult& result,
+                                  const std::string& verdict) {
   Image image(kWidth, kTop + kPanel + kPlotHeight, kPaper);
   const TextStyle title{15, kInk, Align::Left, true};
   draw_text(image, kInset, 34, fitted("A: " + a.name, title, kPanel - 2 * kInset), title);
   draw_text(image, kPanel + kInset, 34, fitted("B: " + b.name, title, kPanel - 2 * kInset), title);
-  draw_piece(image, view_of({a.outline.points}, 0), a.outline, {}, kFillA);
-  draw_piece(image, view_of({b.outline.points}, 1), b.outline, {}, kFillB);
+  const auto [view_a, view_b] = views_apart(a, b);
+  draw_piece(image, view_a, a.outline, {}, kFillA);
+  draw_piece(image, view_b, b.outline, {}, kFillB);
   if (!result.candidates.empty()) {
     const outline::JoinCandidate& best = result.candidates.front();
-    draw_joined(image, a, b, best);
+    draw_joined(image, a, b, best, verdict);
     draw_curvatures(image, a.outline, b.outline, best.boundary);
     const std::vector<std::uint8_t> bytes = outline::assembled_png({a, b}, {{}, best.pose});
     rejoin::write_file(folder / "joined.png", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});

@@ -1,0 +1,66 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+
+#include "report/canvas.hpp"
+#include "report/outline_pictures.hpp"
+
+namespace rejoin::report {
+namespace {
+
+outline::Piece rectangle(const char* name, double width, double height) {
+  return {name, "", {{{0, 0}, {width, 0}, {width, height}, {0, height}}, {}, {}}};
+}
+
+/// match.png of a piece of 300 x 200 and one of 60 x 80 that meet along 60.
+cv::Mat drawn(const std::string& verdict) {
+  outline::JoinCandidate best;
+  best.pose.translation = {100.0, 200.0};
+  best.score = 0.009;
+  best.boundary = {540.0, 60.0, 60.0};
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / "rejoin_outline_match_pictures";
+  std::filesystem::create_directories(folder);
+  write_outline_match_pictures(folder, rectangle("large", 300, 200), rectangle("small", 60, 80), {{best}},
+                               verdict);
+  cv::Mat image = cv::imread((folder / "match.png").string());
+  std::filesystem::remove_all(folder);
+  return image;
+}
+
+/// Columns of a panel in which a colour (blue, green, red) is found.
+int width_of(const cv::Mat& image, int panel, const cv::Vec3b& colour) {
+  int columns = 0;
+  for (int x = 420 * panel; x < 420 * (panel + 1); ++x) {
+    bool found = false;
+    for (int y = 56; y < 56 + 420; ++y) found = found || image.at<cv::Vec3b>(y, x) == colour;
+    columns += found ? 1 : 0;
+  }
+  return columns;
+}
+
+TEST(OutlineMatchPictures, BothPiecesAreDrawnAtOneScale) {
+  const cv::Mat image = drawn("no join");
+  const int large = width_of(image, 0, {178, 205, 226});
+  const int small = width_of(image, 1, {226, 203, 178});
+  EXPECT_GT(large, 300);
+  EXPECT_NEAR(small, large / 5.0, 5.0);  // the edges' lines
+}
+
+TEST(OutlineMatchPictures, TheTitleIsTheVerdict) {
+  const cv::Mat image = drawn("no join");
+  Image expected(420, 50, kPaper);
+  draw_text(expected, 26, 34, "no join, score 0.009: best pose", {15, kInk, Align::Left, true});
+  int different = 0;
+  for (int y = 0; y < 50; ++y) {
+    for (int x = 0; x < 420; ++x) {
+      const Colour want = expected.at(x, y);
+      different += image.at<cv::Vec3b>(y, 840 + x) == cv::Vec3b(want.b, want.g, want.r) ? 0 : 1;
+    }
+  }
+  EXPECT_EQ(different, 0);
+}
+
+}  // namespace
+}  // namespace rejoin::report
