@@ -55,16 +55,19 @@ class OutlineAssembleCommand final : public Command {
         ->type_name("DIR")
         ->group("Output");
     add_outline_method(app, method_);
+    add_calibration(app, calibration_);
   }
 
   ExitCode run(Console& console, Context& context) override {
     const Clock::time_point begin = Clock::now();
+    outline::MultiscaleOptions multiscale;
+    apply_calibration(calibration_, method_, multiscale);
     if (json_) require_writable_file(*json_);
     if (out_) require_writable_folder(*out_);
     const outline::PieceSet set = load_folder(folder_, console);
     if (set.pieces.size() < 2) throw InputError(folder_, "holds one piece only", "give a folder of pieces");
     console.detail(fmt::format("read {} pieces in {:.2f} s", set.pieces.size(), seconds_since(begin)));
-    const std::unique_ptr<outline::Matcher> matcher = make_matcher(method_);
+    const std::unique_ptr<outline::Matcher> matcher = make_matcher(method_, multiscale);
     matcher->prepare(set.pieces);
     console.detail(fmt::format("prepared after {:.2f} s", seconds_since(begin)));
     const outline::Assembly assembly = outline::assemble(set.pieces, *matcher, {}, context);
@@ -89,6 +92,7 @@ class OutlineAssembleCommand final : public Command {
   std::string folder_;
   std::optional<std::string> json_;
   std::optional<std::string> out_;
+  std::optional<std::string> calibration_;
   OutlineMethod method_ = OutlineMethod::Automatic;
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "cli/arguments.hpp"
+#include "cli/outline_calibration.hpp"
 #include "outline/emd.hpp"
 #include "outline/lcs.hpp"
 
@@ -23,6 +24,22 @@ const Choices<OutlineMethod> kMethods{{"auto", OutlineMethod::Automatic},
 
 void add_outline_method(CLI::App& app, OutlineMethod& method) {
   add_choice(app, "--method", method, kMethods, "how (auto)")->group("Search");
+}
+
+void add_calibration(CLI::App& app, std::optional<std::string>& calibration) {
+  app.add_option("--calibration", calibration, "numbers from outline calibrate, for multiscale")
+      ->type_name("FILE")
+      ->group("Search");
+}
+
+void apply_calibration(const std::optional<std::string>& calibration, OutlineMethod method,
+                       outline::MultiscaleOptions& options) {
+  if (!calibration) return;
+  if (method != OutlineMethod::Automatic && method != OutlineMethod::Multiscale) {
+    throw UsageError("--calibration", fmt::format("serves multiscale only, not {}", name_of(method)),
+                     "leave it out, or --method");
+  }
+  read_calibration(*calibration, options);
 }
 
 const char* name_of(OutlineMethod method) {

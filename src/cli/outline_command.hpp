@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "cli/command.hpp"
@@ -21,6 +22,15 @@ enum class OutlineMethod { Automatic, Multiscale, Lcs, Emd, Frechet };
 
 /// Adds --method.
 void add_outline_method(CLI::App& app, OutlineMethod& method);
+
+/// Adds --calibration, which goes with it.
+void add_calibration(CLI::App& app, std::optional<std::string>& calibration);
+
+/// Reads a calibration into the options, if one is given.
+/// \throws UsageError the method is not multiscale, which alone has such numbers
+/// \throws IoError, InputError see read_calibration()
+void apply_calibration(const std::optional<std::string>& calibration, OutlineMethod method,
+                       outline::MultiscaleOptions& options);
 
 /// "multiscale" ...; what Automatic stands for is named as such.
 const char* name_of(OutlineMethod method);

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "cli/arguments.hpp"
-#include "cli/outline_calibration.hpp"
 #include "cli/outline_command.hpp"
 #include "cli/outline_json.hpp"
 #include "cli/outline_rims.hpp"
@@ -56,9 +55,7 @@ class OutlineMatchCommand final : public Command {
     app.add_option("--json", json_, "write pose, score and boundary")->type_name("FILE")->group("Output");
     app.add_option("--out", out_, "write match.png and joined.png")->type_name("DIR")->group("Output");
     add_outline_method(app, method_);
-    app.add_option("--calibration", calibration_, "parameters from outline calibrate")
-        ->type_name("FILE")
-        ->group("Search");
+    add_calibration(app, calibration_);
   }
 
   ExitCode run(Console& console, Context& context) override {
@@ -66,7 +63,7 @@ class OutlineMatchCommand final : public Command {
     require_two_files(path_a_, path_b_);
     if (is_scan(path_a_) || is_scan(path_b_)) return run_rims(console, context);
     outline::MultiscaleOptions multiscale = thorough();
-    if (calibration_) read_calibration(*calibration_, multiscale);
+    apply_calibration(calibration_, method_, multiscale);
     if (json_) require_writable_file(*json_);
     if (out_) require_writable_folder(*out_);
     const std::vector<outline::Piece> pieces{load_piece(path_a_, console), load_piece(path_b_, console)};

@@ -179,6 +179,22 @@ TEST(OutlineCalibrate, WhatItWritesIsReadByMatch) {
   EXPECT_EQ(found.out.rfind("join,", 0), 0U) << found.out;
 }
 
+// With steps as long as a third of a join nothing tells true from false.
+TEST(OutlineAssemble, SearchesWithTheNumbersOfACalibration) {
+  const BrokenShapes shapes;
+  write_file(shapes / "none.json",
+             R"({"schema": "rejoin.outline-calibration/1",
+                 "levels": [{"step": 60.0, "xi": 1.2, "zeta": 1.8, "n_min": 5.0}]})");
+  const std::string file = shapes / "assembly.json";
+  const Finished done =
+      run({"outline", "assemble", shapes.pieces, "--calibration", shapes / "none.json", "--json", file});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_LT(json::parse(read_file(file))["joins"].size(), shapes.truth["joins"].size());
+  const Finished missing = run({"outline", "assemble", shapes.pieces, "--calibration", shapes / "gone.json"});
+  EXPECT_EQ(missing.exit_code, 1);
+  EXPECT_NE(missing.err.find("gone.json"), std::string::npos) << missing.err;
+}
+
 TEST(OutlineMatch, APictureWithoutAPieceIsRefused) {
   const TemporaryFolder folder;
   const std::string blank = picture(folder, "blank.png", [](cv::Mat&) {});

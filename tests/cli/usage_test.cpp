@@ -80,6 +80,12 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUse{"OptionWithoutValue", {"match", "a.ply", "b.ply", "--json"}, "--json"},
         WrongUse{"CompareWithoutPose", {"compare", "a.ply", "b.ply"}, "--pose is required"},
         WrongUse{"FacetsNotPly", {"facets", "a.ply", "--ply", "a.obj"}, "--ply"},
+        WrongUse{"CalibrationForAnotherMethod",
+                 {"outline", "match", "a.csv", "b.csv", "--method", "lcs", "--calibration", "c.json"},
+                 "serves multiscale only"},
+        WrongUse{"CalibrationForAnotherAssembly",
+                 {"outline", "assemble", "pieces", "--method", "emd", "--calibration", "c.json"},
+                 "serves multiscale only"},
         WrongUse{"BenchResolution", {"bench", "--resolution", "1"}, "--resolution"}),
     [](const auto& info) { return std::string(info.param.name); });
 
