@@ -65,8 +65,9 @@ std::vector<HelpGroup> help_groups(const CLI::App& app) {
 }
 
 std::string usage_line(const CLI::App& app) {
-  const CLI::App* parent = app.get_parent();
-  std::string line = parent ? parent->get_name() + " " + app.get_name() : app.get_name();
+  std::string line = app.get_name();
+  for (const CLI::App* parent = app.get_parent(); parent; parent = parent->get_parent())
+    line = parent->get_name() + " " + line;
   if (!visible_subcommands(app).empty()) return line + " COMMAND [OPTIONS]";
   for (const CLI::Option* option : app.get_options()) {
     if (option->get_positional()) line += " " + option->get_name(true);

@@ -111,9 +111,10 @@ int explain(const CLI::App& root, const CLI::ParseError& error) {
   }
   std::string text = error.what();
   for (char& c : text) c = c == '\n' ? ' ' : c;
-  const auto used = root.get_subcommands();
-  fmt::print(stderr, "rejoin: {}; see rejoin {}--help\n", text,
-             used.empty() ? "" : used[0]->get_name() + " ");
+  std::string command = "rejoin ";
+  for (auto used = root.get_subcommands(); !used.empty(); used = used[0]->get_subcommands())
+    command += used[0]->get_name() + " ";
+  fmt::print(stderr, "rejoin: {}; see {}--help\n", text, command);
   return kWrongUse;
 }
 

@@ -79,14 +79,18 @@ class OutlineAssembleCommand final : public Command {
       write_file(*json_, assembly_json(set, assembly, search));
     }
     console.result(summary(set.pieces, assembly));
-    if (out_) write_pictures(set.pieces, assembly);
+    if (json_) console.result(fmt::format("wrote {}\n", *json_));
+    if (out_) write_pictures(set.pieces, assembly, console);
     return assembly.cancelled ? kInterrupted : finished_with(set, console);
   }
 
  private:
-  void write_pictures(const std::vector<outline::Piece>& pieces, const outline::Assembly& assembly) const {
-    outline::write_assembly_pictures(*out_, pieces, assembly);
-    report::write_similarity_picture(std::filesystem::path(*out_) / "similarity.png", pieces, assembly);
+  void write_pictures(const std::vector<outline::Piece>& pieces, const outline::Assembly& assembly,
+                      Console& console) const {
+    std::vector<std::filesystem::path> files = outline::write_assembly_pictures(*out_, pieces, assembly);
+    files.push_back(std::filesystem::path(*out_) / "similarity.png");
+    report::write_similarity_picture(files.back(), pieces, assembly);
+    for (const std::filesystem::path& file : files) console.result(fmt::format("wrote {}\n", file.string()));
   }
 
   std::string folder_;

@@ -48,6 +48,7 @@ class OutlineCalibrateCommand final : public Command {
     }
     if (json_) write_file(*json_, calibration_json(levels));
     console.result(table(levels));
+    if (json_) console.result(fmt::format("wrote {}\n", *json_));
     return finished_with(set, console);
   }
 

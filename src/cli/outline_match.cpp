@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <chrono>
+#include <filesystem>
 #include <optional>
 
 #include "cli/arguments.hpp"
@@ -79,8 +80,12 @@ class OutlineMatchCommand final : public Command {
       write_file(*json_, outline_match_json(pieces[0], pieces[1], result, search));
     }
     console.result(summary(pieces[0], pieces[1], result));
-    if (out_ && !context.cancelled())
-      report::write_outline_match_pictures(*out_, pieces[0], pieces[1], result, verdict_of(result));
+    if (json_) console.result(fmt::format("wrote {}\n", *json_));
+    if (out_ && !context.cancelled()) {
+      for (const std::filesystem::path& file :
+           report::write_outline_match_pictures(*out_, pieces[0], pieces[1], result, verdict_of(result)))
+        console.result(fmt::format("wrote {}\n", file.string()));
+    }
     return context.cancelled() ? kInterrupted : kDone;
   }
 

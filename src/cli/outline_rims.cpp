@@ -74,6 +74,7 @@ ExitCode match_rims(const std::string& path_a, const std::string& path_b,
   if (context.cancelled()) console.warning("interrupted; what follows is the best so far");
   if (json) write_file(*json, proposals_json(a, b, proposals, seconds.count(), context.cancelled()));
   console.result(summary(proposals));
+  if (json) console.result(fmt::format("wrote {}\n", *json));
   return context.cancelled() ? kInterrupted : kDone;
 }
 

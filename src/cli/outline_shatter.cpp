@@ -34,7 +34,7 @@ class OutlineShatterCommand final : public Command {
         add_number(app, "--shapes", shapes_, {1, 10000}, "random polygons to break, 1 to 10000 (1)");
     add_number(app, "--tiles", tiles_, {1, 10000}, "ceramic tiles of 100 to 150 mm a side instead")
         ->excludes(shapes);
-    add_number(app, "--pieces", options_.pieces, {1, 100000}, "in all, up to 100000 (8)");
+    add_number(app, "--pieces", options_.pieces, {2, 100000}, "in all, 2 to 100000 (8)");
     add_number(app, "--resolution", resolution_, {10, 2400}, "shapes: pixels a unit (100); tiles: dpi (300)");
     app.option_defaults()->group("Damage");
     add_number(app, "--wear", options_.wear, {0, 20, "PX"}, "pixels worn off the edges, 0 to 20 (0)");
@@ -57,10 +57,12 @@ class OutlineShatterCommand final : public Command {
       context.report("writing pieces", static_cast<double>(n) / static_cast<double>(broken.pieces.size()));
       write_file(folder / (broken.pieces[n].piece.name + ending), content_of(broken.pieces[n], options));
     }
-    write_file(folder / "truth.json", outline::truth_json(broken, options, ending));
-    console.result(fmt::format("{}: {} pieces of {} {}{}, {} joins\n", folder_, broken.pieces.size(),
+    const std::string truth = (folder / "truth.json").string();
+    write_file(truth, outline::truth_json(broken, options, ending));
+    console.result(fmt::format("{} pieces of {} {}{}, {} join{}\nwrote {}\n", broken.pieces.size(),
                                options.objects, tiles_ > 0 ? "tile" : "shape",
-                               options.objects == 1 ? "" : "s", broken.joins.size()));
+                               options.objects == 1 ? "" : "s", broken.joins.size(),
+                               broken.joins.size() == 1 ? "" : "s", truth));
     return kDone;
   }
 

@@ -210,20 +210,26 @@ std::vector<std::uint8_t> assembled_png(const std::vector<Piece>& pieces, const 
   return png_of(object_picture(members, view_of(members, options)));
 }
 
-void write_assembly_pictures(const std::filesystem::path& folder, const std::vector<Piece>& pieces,
-                             const Assembly& assembly, const PictureOptions& options) {
+std::vector<std::filesystem::path> write_assembly_pictures(const std::filesystem::path& folder,
+                                                           const std::vector<Piece>& pieces,
+                                                           const Assembly& assembly,
+                                                           const PictureOptions& options) {
   std::vector<std::vector<Placed>> objects;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const auto& [pose, group, confidence] = assembly.placements[i];
     if (group >= objects.size()) objects.resize(group + 1);
     objects[group].push_back({&pieces[i], pose, i});
   }
+  std::vector<std::filesystem::path> files;
   for (std::size_t k = 0; k < objects.size() && k < options.most_objects && objects[k].size() > 1; ++k) {
     const View view = view_of(objects[k], options);
     const std::string number = std::to_string(k + 1);
-    write(folder / ("object_" + number + ".png"), object_picture(objects[k], view));
-    write(folder / ("joins_" + number + ".png"), joins_picture(objects[k], assembly.joins, view));
+    files.push_back(folder / ("object_" + number + ".png"));
+    write(files.back(), object_picture(objects[k], view));
+    files.push_back(folder / ("joins_" + number + ".png"));
+    write(files.back(), joins_picture(objects[k], assembly.joins, view));
   }
+  return files;
 }
 
 }  // namespace rejoin::outline

@@ -25,8 +25,11 @@ std::vector<std::uint8_t> assembled_png(const std::vector<Piece>& pieces, const 
 /// Writes into a folder, each file whole or not at all:
 /// - object_1.png ..: the pieces of an object in their places, see assembled_png()
 /// - joins_1.png ..: the same pieces in grey with their common boundaries in red and their numbers
+/// \return the files
 /// \throws IoError a picture cannot be read again or a file cannot be written
-void write_assembly_pictures(const std::filesystem::path& folder, const std::vector<Piece>& pieces,
-                             const Assembly& assembly, const PictureOptions& options = {});
+std::vector<std::filesystem::path> write_assembly_pictures(const std::filesystem::path& folder,
+                                                           const std::vector<Piece>& pieces,
+                                                           const Assembly& assembly,
+                                                           const PictureOptions& options = {});
 
 }  // namespace rejoin::outline

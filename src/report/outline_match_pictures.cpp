@@ -170,9 +170,11 @@ void draw_joined(Image& image, const outline::Piece& a, const outline::Piece& b,
 
 }  // namespace
 
-void write_outline_match_pictures(const std::filesystem::path& folder, const outline::Piece& a,
-                                  const outline::Piece& b, const outline::PairResult& result,
-                                  const std::string& verdict) {
+std::vector<std::filesystem::path> write_outline_match_pictures(const std::filesystem::path& folder,
+                                                                const outline::Piece& a,
+                                                                const outline::Piece& b,
+                                                                const outline::PairResult& result,
+                                                                const std::string& verdict) {
   Image image(kWidth, kTop + kPanel + kPlotHeight, kPaper);
   const TextStyle title{15, kInk, Align::Left, true};
   draw_text(image, kInset, 34, fitted("A: " + a.name, title, kPanel - 2 * kInset), title);
@@ -188,6 +190,9 @@ void write_outline_match_pictures(const std::filesystem::path& folder, const out
     rejoin::write_file(folder / "joined.png", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   }
   write_png(folder / "match.png", image);
+  std::vector<std::filesystem::path> files{folder / "match.png"};
+  if (!result.candidates.empty()) files.push_back(folder / "joined.png");
+  return files;
 }
 
 }  // namespace rejoin::report

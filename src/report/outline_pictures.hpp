@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "outline/outline.hpp"
 
@@ -12,9 +13,12 @@ namespace rejoin::report {
 /// curvature of both along it) and joined.png (see outline::assembled_png()); without a candidate only the pieces apart in
 /// match.png.
 /// \param verdict  of the best candidate, "join" ..; its title
+/// \return the files, in this order
 /// \throws IoError a file cannot be written, or a picture not be read again
-void write_outline_match_pictures(const std::filesystem::path& folder, const outline::Piece& a,
-                                  const outline::Piece& b, const outline::PairResult& result,
-                                  const std::string& verdict);
+std::vector<std::filesystem::path> write_outline_match_pictures(const std::filesystem::path& folder,
+                                                                const outline::Piece& a,
+                                                                const outline::Piece& b,
+                                                                const outline::PairResult& result,
+                                                                const std::string& verdict);
 
 }  // namespace rejoin::report

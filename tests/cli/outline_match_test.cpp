@@ -109,6 +109,8 @@ TEST(OutlineMatch, FindsAPlantedJoinAndDrawsIt) {
   EXPECT_EQ(match["search"]["method"], "multiscale");
   expect_same_motion(matrix_of(match["pose"]), product(inverse(shapes.world(a)), shapes.world(b)));
   EXPECT_FALSE(cv::imread(pictures + "/match.png").empty());
+  for (const std::string& written : {file, pictures + "/match.png", pictures + "/joined.png"})
+    EXPECT_NE(found.out.find("wrote " + written + "\n"), std::string::npos) << found.out;
   EXPECT_EQ(cv::imread(pictures + "/joined.png", cv::IMREAD_UNCHANGED).channels(), 4);
 }
 
@@ -162,6 +164,7 @@ TEST(OutlineCalibrate, WhatItWritesIsReadByMatch) {
   const Finished done =
       run({"outline", "calibrate", shapes.pieces, "--joins", shapes / "assembly.json", "--json", numbers});
   ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_NE(done.out.find("wrote " + numbers + "\n"), std::string::npos) << done.out;
   const json levels = json::parse(read_file(numbers))["levels"];
   ASSERT_GE(levels.size(), 2U);
   double least_mistaken = 1.0;
@@ -224,6 +227,21 @@ TEST(OutlineMatch, APictureThatClaimsToBeHugeIsRefusedByItsHeader) {
   for (const std::size_t at : {16U, 20U}) bytes.replace(at, 4, std::string("\0\1\0\0", 4));
   write_file(folder / "huge.png", bytes);
   expect_refusal({"outline", "match", folder / "huge.png", good_picture(folder)}, "120 million");
+}
+
+TEST(OutlineAssemble, TellsEveryFileThatItWrites) {
+  const BrokenShapes shapes;
+  const std::string file = shapes / "assembly.json";
+  const std::string pictures = shapes / "pictures";
+  const Finished done = run({"outline", "assemble", shapes.pieces, "--json", file, "--out", pictures});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  std::size_t told = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(pictures)) {
+    EXPECT_NE(done.out.find("wrote " + entry.path().string() + "\n"), std::string::npos) << done.out;
+    ++told;
+  }
+  EXPECT_EQ(told, 5U);  // two objects, two pictures each, and similarity.png
+  EXPECT_NE(done.out.find("wrote " + file + "\n"), std::string::npos) << done.out;
 }
 
 TEST(OutlineAssemble, AFileThatCannotBeUsedIsToldAndTheRestGoesOn) {

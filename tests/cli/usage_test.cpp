@@ -80,6 +80,10 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUse{"OptionWithoutValue", {"match", "a.ply", "b.ply", "--json"}, "--json"},
         WrongUse{"CompareWithoutPose", {"compare", "a.ply", "b.ply"}, "--pose is required"},
         WrongUse{"FacetsNotPly", {"facets", "a.ply", "--ply", "a.obj"}, "--ply"},
+        WrongUse{"OutlineOptionPointsToItsOwnHelp",
+                 {"outline", "shatter", "pieces", "--colour"},
+                 "see rejoin outline shatter --help"},
+        WrongUse{"OnePieceIsNotBroken", {"outline", "shatter", "pieces", "--pieces", "1"}, "2 to 100000"},
         WrongUse{"CalibrationForAnotherMethod",
                  {"outline", "match", "a.csv", "b.csv", "--method", "lcs", "--calibration", "c.json"},
                  "serves multiscale only"},
@@ -109,6 +113,14 @@ INSTANTIATE_TEST_SUITE_P(Commands, HelpTest,
                          ::testing::Values("", "match", "compare", "facets", "assemble", "shatter", "info",
                                            "bench"),
                          [](const auto& info) { return *info.param ? std::string(info.param) : "Root"; });
+
+TEST(Help, OfACommandWithinACommandNamesTheProgram) {
+  for (const char* command : {"match", "assemble", "calibrate", "shatter"}) {
+    const Finished finished = run({"outline", command, "--help"});
+    EXPECT_EQ(finished.out.rfind("Usage: rejoin outline " + std::string(command) + " ", 0), 0U)
+        << finished.out;
+  }
+}
 
 TEST(Version, IsTheProjectsVersionOnStdout) {
   const Finished finished = run({"--version"});
