@@ -114,6 +114,19 @@ TEST_F(Read, BrokenGeoJsonIsRefused) {
   expect_refusal("d.geojson", R"({"type":7,"coordinates":3})", "no polygon");
 }
 
+TEST_F(Read, CsvWithSemicolonsMayHaveDecimalCommas) {
+  const PieceSet set = read_pieces(write("a.csv", "x;y\r\n0,5;0,5\r\n10,5;0,5\r\n10,5;-1e1\r\n0,5;-10\r\n"));
+  ASSERT_EQ(set.pieces.size(), 1U);
+  EXPECT_DOUBLE_EQ(signed_area(set.pieces[0].outline.points), 10.0 * 10.5);
+  EXPECT_DOUBLE_EQ(only_area(read_pieces(write("b.csv", "0;0\n10;0\n10;10\n0;10\n"))), 100.0);
+  EXPECT_DOUBLE_EQ(only_area(read_pieces(write("c.csv", "0,0\n1,0\n1,1\n0,1\n"))), 1.0);
+}
+
+TEST_F(Read, CsvWhoseCommasMayMeanTwoThingsIsRefusedWithTheLine) {
+  expect_refusal("a.csv", "0,5;0,5\n1,2,3;4\n", "line 2 has semicolons and commas");
+  expect_refusal("b.csv", "0;0\n1, 2;3\n", "line 2 has semicolons and commas");
+}
+
 TEST_F(Read, FolderIsReadInTheOrderOfNames) {
   write("b.csv", "0,0\n1,0\n1,1\n0,1\n");
   write("a.csv", "0,0\n2,0\n2,2\n0,2\n");

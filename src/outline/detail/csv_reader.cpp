@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "core/error.hpp"
@@ -25,6 +26,23 @@ std::optional<double> take_number(std::string_view& line) {
   return value;
 }
 
+/// A line of a table whose numbers have decimal commas, with points in their place: a semicolon parts the columns, so a
+/// comma between two digits that is the only one of its column is no separator.
+/// \return nullopt: semicolons and commas are both there, and what the commas mean is open
+std::optional<std::string> with_points(std::string_view line) {
+  std::string text(line);
+  if (line.find(';') == std::string_view::npos || line.find(',') == std::string_view::npos) return text;
+  const auto digit = [&](std::size_t i) { return i < text.size() && text[i] >= '0' && text[i] <= '9'; };
+  std::size_t commas = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == ';') commas = 0;
+    if (text[i] != ',') continue;
+    if (++commas > 1 || i == 0 || !digit(i - 1) || !digit(i + 1)) return std::nullopt;
+    text[i] = '.';
+  }
+  return text;
+}
+
 std::optional<glm::dvec2> parse_point(std::string_view line) {
   const auto x = take_number(line);
   const auto y = x ? take_number(line) : std::nullopt;
@@ -44,8 +62,13 @@ std::vector<Rings> read_csv(const std::string& path, const std::string& text) {
     rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
     ++number;
     if (line.find_first_not_of(kSeparators) == std::string_view::npos || line[0] == '#') continue;
-    const auto point = parse_point(line);
+    const auto plain = with_points(line);
+    const auto point = plain ? parse_point(*plain) : std::nullopt;
     if (!point && points.empty() && number == 1) continue;  // the columns' names
+    if (!plain) {
+      throw InputError(path, fmt::format("line {} has semicolons and commas, and not as \"1,5;2,5\"", number),
+                       "write \"x,y\" with decimal points in each line");
+    }
     if (!point)
       throw InputError(path, fmt::format("line {} is no point", number), "write \"x,y\" in each line");
     points.push_back(*point);
