@@ -85,7 +85,8 @@ inline constexpr double kContact = 0.001;
 /// Overlap above which two pieces cannot lie as they do.
 inline constexpr double kMostOverlap = 0.03;
 
-/// Surface of the two that lies clearly inside the other, as a share of the smaller one's surface.
+/// Surface of the two that lies clearly inside the other, or of the smaller one with both insides under it, as a share of the smaller one's
+/// surface.  The second tells solids that coincide.
 double overlap(const Piece& a, const Piece& b, const Rigid& b_to_a);
 
 }  // namespace rejoin::assembly

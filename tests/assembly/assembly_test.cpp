@@ -9,6 +9,7 @@
 #include "../mesh/shapes.hpp"
 #include "assembly/witness.hpp"
 #include "core/parallel.hpp"
+#include "core/random.hpp"
 #include "match/align.hpp"
 #include "shatter/shatter.hpp"
 
@@ -148,6 +149,45 @@ TEST(Assemble, AJoinThatPutsPiecesIntoEachOtherIsRejectedWithTheReason) {
   EXPECT_NE(result.placements[corner.b].reason.find("into each other"), std::string::npos)
       << result.placements[corner.b].reason;
   EXPECT_NE(result.placements[corner.c].reason.find("no pose was found"), std::string::npos);
+}
+
+/// A piece scanned a second time: other vertices on the same surface, lying elsewhere.
+mesh::Mesh scanned_again(mesh::Mesh scan, const Rigid& motion) {
+  Random random(5);
+  const double noise = 0.1 * mesh::resolution(scan);
+  for (glm::vec3& v : scan.vertices) {
+    const glm::dvec3 off(random.normal(), random.normal(), random.normal());
+    v = glm::vec3(motion.rotation * (glm::dvec3(v) + noise * off));
+  }
+  scan.origin = motion(scan.origin);
+  return scan;
+}
+
+TEST(Assemble, OfTwoScansOfOnePieceOneIsPlacedAndTheOtherToldToLieInIt) {
+  const Rigid motion{axis_rotation({0, 0, 1}, 0.8), {30, -7, 2}};
+  for (const bool other_hand : {false, true}) {
+    Box box = ball();
+    const std::size_t piece = corner_of(box).a;
+    const std::size_t again = box.fragments.size();
+    const Rigid moved = other_hand ? motion : Rigid{};
+    const mesh::Mesh scan = box.fragments[piece].surface;
+    box.fragments.push_back(
+        match::prepare("again", other_hand ? scanned_again(scan, moved) : scan, Context()));
+    box.to_world.push_back(box.to_world[piece] * inverse(moved));
+    std::vector<Link> links = box.all_true(0.999);
+    for (const shatter::Contact& c : box.contacts) {
+      if (c.a == piece || c.b == piece) links.push_back(box.true_link(c.a + c.b - piece, again, 0.998));
+    }
+    const Result result = run(box, links);
+    const bool first = result.placements[piece].group >= 0;
+    EXPECT_NE(first, result.placements[again].group >= 0) << "other hand: " << other_hand;
+    const std::string& reason = result.placements[first ? again : piece].reason;
+    EXPECT_NE(reason.find("into each other"), std::string::npos) << reason;
+    EXPECT_LT(box.worst_turn(result), 0.5);
+    EXPECT_EQ(std::count_if(result.placements.begin(), result.placements.end(),
+                            [](const Placement& p) { return p.group == 0; }),
+              static_cast<std::ptrdiff_t>(ball().fragments.size()));
+  }
 }
 
 TEST(Assemble, AFalseJoinGivesWayToTheLoopsThatContradictIt) {
