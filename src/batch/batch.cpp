@@ -39,7 +39,8 @@ class Work {
         listener_(listener),
         context_(context),
         names_(find_scans(inputs)),
-        tiles_(tiles_of(names_.size(), options.shard)),
+        copies_(find_copies(inputs, names_)),
+        tiles_(tiles_of(take_copies_off(), options.shard)),
         run_(open(output)),
         shelf_(output / "fragments") {}
 
@@ -59,6 +60,18 @@ class Work {
     return store::Run::write(output);
   }
 
+  /// \return how many names stay
+  std::size_t take_copies_off() {
+    names_.erase(std::remove_if(names_.begin(), names_.end(),
+                                [this](const std::string& name) { return copies_.count(name) != 0; }),
+                 names_.end());
+    if (names_.size() < 2) {
+      throw InputError(inputs_.string(), "holds one scan only, under several names",
+                       "give a folder of different scans");
+    }
+    return names_.size();
+  }
+
   /// Brings the database to the inputs and options of this run.
   void begin() {
     std::vector<store::Fragment> wanted = describe_inputs();
@@ -76,31 +89,41 @@ class Work {
     progress_.done = done_.size();
     done_before_ = done_.size();
     listener_.on_start(forgotten, progress_);
+    for (const auto& [copy, first] : copies_) {
+      if (fragments_.count(copy) == 0) continue;
+      listener_.on_warning(fmt::format("{0} and {1} are the same scan: {1} is left out", first, copy),
+                           progress_);
+    }
     for (const auto& [name, fragment] : fragments_) {
       if (fragment.state == store::FragmentState::Bad) listener_.on_fragment(fragment, progress_);
     }
   }
 
-  /// Name, path and hash of the fragments of this shard.
+  /// Name, path and hash of the fragments of this shard, and of their copies.
   std::vector<store::Fragment> describe_inputs() const {
     std::set<std::size_t> indices;
     for (const Tile& tile : tiles_) {
       for (const std::size_t k : tile.fragments()) indices.insert(k);
     }
+    std::set<std::string> needed;
+    for (const std::size_t k : indices) needed.insert(names_[k]);
+    for (const auto& [copy, first] : copies_) {
+      if (needed.count(first) != 0) needed.insert(copy);
+    }
     std::vector<store::Fragment> list;
-    list.reserve(indices.size());
-    for (const std::size_t k : indices) {
+    list.reserve(needed.size());
+    for (const std::string& name : needed) {
       store::Fragment fragment;
-      fragment.name = names_[k];
-      fragment.path = (inputs_ / names_[k]).string();
+      fragment.name = name;
+      fragment.path = (inputs_ / name).string();
       list.push_back(std::move(fragment));
     }
     run_side_by_side(list.size(), [&](std::size_t k) {
       try {
         list[k].hash = content_hash(list[k].path);
       } catch (const IoError&) {
-        list[k].hash =
-            "unreadable";  // becomes a bad fragment when it is loaded, and a changed one once it can be read
+        // Becomes a bad fragment when it is loaded, and a changed one once it can be read.
+        list[k].hash = store::kUnreadable;
       }
     });
     return list;
@@ -179,6 +202,7 @@ class Work {
   Summary summary() {
     Summary summary;
     summary.fragments = fragments_.size();
+    for (const auto& [copy, first] : copies_) summary.copies += fragments_.count(copy);
     for (const auto& [name, fragment] : fragments_) {
       if (fragment.state == store::FragmentState::Bad) summary.bad.push_back(fragment);
     }
@@ -193,7 +217,8 @@ class Work {
   const Options& options_;
   Listener& listener_;
   const Context& context_;
-  std::vector<std::string> names_;
+  std::vector<std::string> names_;             // of the scans that have pairs
+  std::map<std::string, std::string> copies_;  // of the others, with the names that stand for them
   std::vector<Tile> tiles_;
   store::Run run_;
   Shelf shelf_;

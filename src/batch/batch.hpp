@@ -34,6 +34,8 @@ class Listener {
  public:
   virtual ~Listener() = default;
   virtual void on_start(const store::Run::Forgotten& /*forgotten*/, const Progress& /*progress*/) {}
+  /// Something about the scans that the user should look at; the run goes on.
+  virtual void on_warning(const std::string& /*text*/, const Progress& /*progress*/) {}
   /// A fragment was made ready, or is bad (those of an earlier run are told at the start).
   virtual void on_fragment(const store::Fragment& /*fragment*/, const Progress& /*progress*/) {}
   /// A pair is in the database.
@@ -41,7 +43,8 @@ class Listener {
 };
 
 struct Summary {
-  std::size_t fragments = 0;         ///< that the shard needs
+  std::size_t fragments = 0;         ///< that the shard needs, and their copies
+  std::size_t copies = 0;            ///< of those
   std::vector<store::Fragment> bad;  ///< those that cannot be used
   std::size_t done_before = 0;       ///< pairs found done
   Progress progress;                 ///< at the end
@@ -51,12 +54,13 @@ struct Summary {
 /// Matches all pairs of the folder's scans that the run's database lacks, several side by side.  The same inputs and options give the same
 /// content (but for seconds), whatever the number of threads and however often it was stopped.
 ///
-/// A scan that cannot be used, or a pair that fails, is marked and the rest goes on.
+/// A scan that cannot be used, or a pair that fails, is marked and the rest goes on.  A file with the content of another has no pairs: the
+/// first by name stands for both.
 ///
 /// \param inputs  folder of scans
 /// \param output  folder of the run, made if it is not there: run.sqlite, fragments/, pairs.csv
 /// \throws IoError     the folders cannot be read or written
-/// \throws InputError  fewer than two scans
+/// \throws InputError  fewer than two different scans
 /// \throws StoreError  the database cannot be used, or the disk is full; what is done so far is kept
 Summary run(const std::filesystem::path& inputs, const std::filesystem::path& output, const Options& options,
             Listener& listener, const Context& context);

@@ -69,4 +69,28 @@ std::string content_hash(const fs::path& path) {
   return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
+std::map<std::string, std::string> find_copies(const fs::path& folder,
+                                               const std::vector<std::string>& names) {
+  std::map<std::uintmax_t, std::vector<std::string>> of_size;
+  for (const std::string& name : names) {
+    std::error_code problem;
+    const std::uintmax_t size = fs::file_size(folder / name, problem);
+    if (!problem) of_size[size].push_back(name);
+  }
+  std::map<std::string, std::string> copies;
+  for (const auto& [size, same_size] : of_size) {
+    if (same_size.size() < 2) continue;
+    std::map<std::string, std::string> first;  // by hash
+    for (const std::string& name : same_size) {
+      try {
+        const std::string& stands = first.try_emplace(content_hash(folder / name), name).first->second;
+        if (stands != name) copies[name] = stands;
+      } catch (const IoError&) {  // told when it is loaded
+        continue;
+      }
+    }
+  }
+  return copies;
+}
+
 }  // namespace rejoin::batch

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -15,5 +16,11 @@ std::vector<std::string> find_scans(const std::filesystem::path& folder);
 /// 128 bits of the file's content (XXH3) as 32 hexadecimal digits; equal contents have equal hashes, under any name.
 /// \throws IoError the file cannot be read
 std::string content_hash(const std::filesystem::path& path);
+
+/// Files that have the content of one before them in the list, with that one's name.  Only files of equal size are read; one that cannot
+/// be read is no copy.
+/// \param names  as find_scans() gives them
+std::map<std::string, std::string> find_copies(const std::filesystem::path& folder,
+                                               const std::vector<std::string>& names);
 
 }  // namespace rejoin::batch

@@ -33,6 +33,7 @@ std::string summary(const AssembleInput& input, const assembly::Result& result) 
     text += fmt::format("  {} not placed: {}\n", input.names[k],
                         with_names(result.placements[k].reason, input.names));
   }
+  for (const auto& [name, reason] : input.bad) text += fmt::format("  {} not placed: {}\n", name, reason);
   return text;
 }
 

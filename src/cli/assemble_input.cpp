@@ -32,10 +32,21 @@ match::Fragment load_one(const store::Fragment& fragment, const fs::path& folder
 std::map<std::int64_t, std::size_t> load_all(const store::Run& run, const fs::path& folder,
                                              AssembleInput& input, Console& console, const Context& context) {
   std::map<std::int64_t, std::size_t> number;
-  for (const store::Fragment& fragment : run.fragments()) {
+  const std::vector<store::Fragment> fragments = run.fragments();
+  const std::map<std::string, std::string> copies = store::copies(fragments);
+  for (const store::Fragment& fragment : fragments) {
     if (context.cancelled()) break;
+    const auto copy = copies.find(fragment.name);
+    if (copy != copies.end()) {
+      input.bad[fragment.name] = fmt::format("is the same scan as {}, which stands for both", copy->second);
+      continue;
+    }
+    if (fragment.state == store::FragmentState::Bad) {
+      console.warning(fragment.error);
+      input.bad[fragment.name] = fragment.error;
+      continue;
+    }
     try {
-      if (fragment.state == store::FragmentState::Bad) throw InputError(fragment.path, fragment.error);
       input.fragments.push_back(load_one(fragment, folder, console, context));
       input.names.push_back(fragment.name);
       input.paths.push_back(fragment.path);

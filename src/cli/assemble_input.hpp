@@ -18,7 +18,7 @@ struct AssembleInput {
   std::vector<std::string> paths;  ///< where the scans were read
   std::vector<match::Fragment> fragments;
   std::vector<assembly::Link> links;
-  std::map<std::string, std::string> bad;  ///< fragments that could not be used, with the reason
+  std::map<std::string, std::string> bad;  ///< fragments that cannot be used or are copies, with the reason
 };
 
 /// Whether the folder is that of a run.

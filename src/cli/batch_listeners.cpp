@@ -27,6 +27,10 @@ class WarningListener : public batch::Listener {
     }
   }
 
+  void on_warning(const std::string& text, const batch::Progress& /*progress*/) override {
+    console_.warning(text);
+  }
+
   void on_fragment(const store::Fragment& fragment, const batch::Progress& /*progress*/) override {
     if (fragment.state == store::FragmentState::Bad && told_.insert(fragment.error).second) {
       console_.warning(fragment.error);
@@ -101,6 +105,13 @@ class JsonListener final : public WarningListener {
     print_line(json);
   }
 
+  void on_warning(const std::string& text, const batch::Progress& progress) override {
+    WarningListener::on_warning(text, progress);
+    ordered_json json = {{"event", "warning"}, {"text", text}};
+    add_progress(json, progress);
+    print_line(json);
+  }
+
   void on_fragment(const store::Fragment& fragment, const batch::Progress& progress) override {
     WarningListener::on_fragment(fragment, progress);
     const bool bad = fragment.state == store::FragmentState::Bad;
@@ -140,11 +151,9 @@ std::unique_ptr<batch::Listener> make_json_listener(Console& console) {
 void tell_end_as_json(const batch::Summary& summary) {
   ordered_json bad = ordered_json::array();
   for (const store::Fragment& fragment : summary.bad) bad.push_back(fragment.name);
-  ordered_json json = {{"event", "end"},
-                       {"fragments", summary.fragments},
-                       {"bad_fragments", bad},
-                       {"done_before", summary.done_before},
-                       {"interrupted", summary.cancelled}};
+  ordered_json json = {
+      {"event", "end"},       {"fragments", summary.fragments},     {"copies", summary.copies},
+      {"bad_fragments", bad}, {"done_before", summary.done_before}, {"interrupted", summary.cancelled}};
   add_progress(json, summary.progress);
   print_line(json);
 }

@@ -27,9 +27,11 @@ class MergeCommand final : public Command {
     require_writable_folder(out_);
     const NothingToSave guard;
     const store::Merged merged = store::merge({runs_.begin(), runs_.end()}, out_);
-    batch::write_table(store::Run::open(out_), std::filesystem::path(out_) / batch::kTableName);
+    const store::Run whole = store::Run::open(out_);
+    batch::write_table(whole, std::filesystem::path(out_) / batch::kTableName);
     console.result(fmt::format("{} fragments, {} pairs", merged.fragments, merged.pairs));
-    const std::size_t all = merged.fragments * (merged.fragments - 1) / 2;
+    const std::size_t different = merged.fragments - store::copies(whole.fragments()).size();
+    const std::size_t all = different * (different - 1) / 2;
     if (merged.pairs < all) console.result(fmt::format(" ({} are still to be done)", all - merged.pairs));
     console.result(fmt::format("\nwrote {}/{}\n", out_, batch::kTableName));
     if (merged.failed == 0) return kDone;

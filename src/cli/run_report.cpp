@@ -210,7 +210,11 @@ report::RunReport read_run(const std::filesystem::path& run, std::size_t listed,
   report::RunReport report;
   report.title = std::filesystem::weakly_canonical(folder).filename().string();
   Numbers numbers;
-  for (const store::Fragment& stored : database.fragments()) {
+  const std::vector<store::Fragment> fragments = database.fragments();
+  const std::map<std::string, std::string> copies = store::copies(fragments);
+  for (const auto& [copy, first] : copies)
+    report.warnings.push_back(fmt::format("{0} and {1} are the same scan: {1} is left out", first, copy));
+  for (const store::Fragment& stored : fragments) {
     numbers[stored.name] = report.fragments.size();
     report::ReportFragment fragment;
     fragment.name = stored.name;
@@ -219,6 +223,9 @@ report::RunReport read_run(const std::filesystem::path& run, std::size_t listed,
     fragment.diameter = stored.diameter;
     if (stored.state == store::FragmentState::Bad)
       fragment.reason = "its file cannot be used: " + stored.error;
+    const auto copy = copies.find(stored.name);
+    if (copy != copies.end())
+      fragment.reason = fmt::format("is the same scan as {}, which stands for both", copy->second);
     report.fragments.push_back(std::move(fragment));
   }
   add_pairs(report, database, numbers, listed);

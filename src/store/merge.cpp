@@ -121,6 +121,7 @@ Merged merge(const std::vector<fs::path>& runs, const fs::path& output) {
     SQLite::Database database(path, SQLite::OPEN_READWRITE | SQLite::OPEN_URI);
     database.exec("PRAGMA foreign_keys = ON");
     for (const fs::path& folder : runs) copy_pairs(database, folder);
+    detail::remove_pairs_of_copies(database);
     return count(database);
   });
   put_in_place(part, output);

@@ -8,7 +8,7 @@
 namespace rejoin::store {
 
 struct Merged {
-  std::size_t fragments = 0;  ///< in the whole
+  std::size_t fragments = 0;  ///< in the whole, copies() included
   std::size_t pairs = 0;
   std::size_t failed = 0;  ///< of the pairs
 };

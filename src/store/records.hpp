@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <string>
+#include <vector>
 
 #include "core/rigid.hpp"
 
@@ -24,6 +26,9 @@ enum class FragmentState {
   Bad,      ///< its file is unusable; `error` says why
 };
 
+/// Stands for the hash of a file that could not be read; says nothing of its content.
+inline constexpr const char* kUnreadable = "unreadable";
+
 struct Fragment {
   std::int64_t id = 0;  ///< > 0 in a database; 0: none yet
   std::string name;     ///< the file's name in its folder, unique in the run
@@ -36,6 +41,10 @@ struct Fragment {
 
   bool operator==(const Fragment&) const = default;
 };
+
+/// Fragments whose file has the content of another, with the name of the one that stands for both: the first by name.  Copies have no
+/// pairs.
+std::map<std::string, std::string> copies(const std::vector<Fragment>& fragments);
 
 /// How far a pair was taken.
 enum class Stage {

@@ -220,6 +220,7 @@ Run::Forgotten Run::begin(const Parameters& parameters, const std::vector<Fragme
     for (const Fragment& fragment : fragments) wanted[fragment.name] = fragment;
     forgotten.fragments = forget_changed(database, wanted);
     for (const auto& [name, fragment] : wanted) add_fragment(database, fragment);
+    detail::remove_pairs_of_copies(database);
     transaction.commit();
     return forgotten;
   });

@@ -67,7 +67,7 @@ class Run {
   };
 
   /// Makes the database one of these parameters and fragments: results that do not belong to them are removed, those that do
-  /// stay.  A fragment is the same if its name and hash are; its path is brought up to date.
+  /// stay.  A fragment is the same if its name and hash are; its path is brought up to date.  Pairs of copies() do not belong.
   /// \param fragments  name, path and hash are used
   /// \param shard      as shard() tells it
   /// \throws StoreError also if the database has pairs of another shard, for they would be lost

@@ -53,5 +53,15 @@ TEST_F(Inputs, HashTellsContentNotName) {
   EXPECT_THROW(content_hash(folder_ / "nowhere"), IoError);
 }
 
+TEST_F(Inputs, CopiesAreFoundByContentAndTheFirstNameStandsForAll) {
+  put("a.ply", "one");
+  put("b.ply", "two");  // as long as the others
+  put("c.ply", "one");
+  put("d.ply", "one more");
+  put("e.ply", "one");
+  const std::map<std::string, std::string> expected{{"c.ply", "a.ply"}, {"e.ply", "a.ply"}};
+  EXPECT_EQ(find_copies(folder_, {"a.ply", "b.ply", "c.ply", "d.ply", "e.ply", "gone.ply"}), expected);
+}
+
 }  // namespace
 }  // namespace rejoin::batch

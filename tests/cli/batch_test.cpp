@@ -183,7 +183,7 @@ TEST_F(Batch, BadScanIsReportedAndTheRestGoesOn) {
   EXPECT_EQ(database.execAndGet("SELECT count(*) FROM pair WHERE stage = 'failed'").getInt(), 3);
   EXPECT_EQ(run({"batch", folder_ / "scans", "--out", run_}).exit_code, 1) << "still bad";
 
-  fs::copy_file(folder_ / "scans/a7.ply", folder_ / "scans/c.ply", fs::copy_options::overwrite_existing);
+  mesh::save(folder_ / "scans/c.ply", match::testing::planted_pair(9, kCells).a);
   const Finished mended = run({"batch", folder_ / "scans", "--out", run_});
   EXPECT_EQ(mended.exit_code, 0) << mended.err;
   EXPECT_NE(mended.out.find("6 of 6 pairs done, 3 of them now"), std::string::npos) << mended.out;
@@ -192,7 +192,7 @@ TEST_F(Batch, BadScanIsReportedAndTheRestGoesOn) {
 TEST_F(Batch, ChangedScanAndChangedParametersAreDoneAgain) {
   fs::copy(*home_ / "undisturbed", run_, fs::copy_options::recursive);
   make_scans(folder_ / "scans");
-  fs::copy_file(folder_ / "scans/b7.ply", folder_ / "scans/a8.ply", fs::copy_options::overwrite_existing);
+  mesh::save(folder_ / "scans/a8.ply", match::testing::planted_pair(9, kCells).a);
   const Finished changed = run({"batch", folder_ / "scans", "--out", run_});
   EXPECT_NE(changed.out.find("3 of 3 pairs done, 2 of them now"), std::string::npos) << changed.out;
   EXPECT_NE(changed.err.find("a8.ply"), std::string::npos);
@@ -213,6 +213,30 @@ TEST_F(Batch, ShardsMergedAreTheWhole) {
   EXPECT_EQ(read_file(run_ + "/pairs.csv"), table_);
   EXPECT_EQ(run({"batch", scans(), "--out", folder_ / "1", "--shard", "2/3"}).exit_code, 1)
       << "holds shard 1/3";
+}
+
+TEST_F(Batch, SameScanUnderTwoNamesIsToldAndLeftOutByWholeRunsAndShards) {
+  make_scans(folder_ / "scans");
+  fs::copy_file(folder_ / "scans/b7.ply", folder_ / "scans/a9.ply");
+  const std::string told = "a9.ply and b7.ply are the same scan: b7.ply is left out";
+  const Finished finished = run({"batch", folder_ / "scans", "--out", run_, "--json"});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_NE(finished.err.find(told), std::string::npos) << finished.err;
+  EXPECT_NE(finished.out.find(told), std::string::npos) << finished.out;
+  EXPECT_EQ(pairs_in(run_), 3);
+  std::vector<std::string> merge = {"merge", "--out", folder_ / "whole"};
+  for (const char* shard : {"1/2", "2/2"}) {
+    merge.push_back(folder_ / std::string(1, shard[0]));
+    ASSERT_EQ(run({"batch", folder_ / "scans", "--out", merge.back(), "--shard", shard}).exit_code, 0);
+  }
+  const Finished merged = run(merge);
+  EXPECT_EQ(merged.out.find("still to be done"), std::string::npos) << merged.out;
+  EXPECT_EQ(content(folder_ / "whole"), content(run_));
+
+  const Finished assembled = run({"assemble", run_});
+  ASSERT_EQ(assembled.exit_code, 0) << assembled.err;
+  const json assembly = json::parse(read_file(run_ + "/assembly.json"));
+  EXPECT_EQ(assembly["fragments"]["b7.ply"]["reason"], "is the same scan as a9.ply, which stands for both");
 }
 
 TEST_F(Batch, JsonLinesAreValidAndCountUp) {

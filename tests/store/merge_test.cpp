@@ -31,7 +31,7 @@ class Merge : public ::testing::Test {
     for (std::size_t k = 0; k < fragments.size(); ++k) {
       list[k].name = fragments[k];
       list[k].path = "scans/" + fragments[k];
-      list[k].hash = hash;
+      list[k].hash = hash + fragments[k];
     }
     run.begin(parameters, list, name);
     std::vector<Fragment> known = run.fragments();

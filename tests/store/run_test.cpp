@@ -120,6 +120,20 @@ TEST_F(RunTest, ChangedFragmentLosesItsPairsAlone) {
   EXPECT_EQ(run.fragments()[2].path, "elsewhere/c.ply");
 }
 
+TEST_F(RunTest, CopyOfAnotherHasNoPairs) {
+  make_run();  // with the pair of a.ply and b.ply
+  std::vector<Fragment> list = three_;
+  list.push_back(fragment("aa.ply", "22"));  // the content of b.ply
+  list.push_back(fragment("d.ply", kUnreadable));
+  list.push_back(fragment("e.ply", kUnreadable));
+  EXPECT_EQ(copies(list), (std::map<std::string, std::string>{{"b.ply", "aa.ply"}}));
+  store::Run run = store::Run::write(folder_);
+  run.save(pair_of(run.fragments(), 0, 2), {});
+  run.begin(kParameters, list);
+  ASSERT_EQ(run.pairs().size(), 1U);
+  EXPECT_EQ(run.pairs()[0].name_b, "c.ply");
+}
+
 TEST_F(RunTest, GoneFragmentLosesItsPairs) {
   make_run();
   store::Run run = store::Run::write(folder_);

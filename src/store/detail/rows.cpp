@@ -1,5 +1,7 @@
 #include "store/detail/rows.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <limits>
@@ -26,6 +28,18 @@ std::array<double, 7> figures(const Candidate& c) {
 }
 
 }  // namespace
+
+void remove_pairs_of_copies(SQLite::Database& database) {
+  const std::string copies = fmt::format(
+      "SELECT name FROM (SELECT name, min(name) OVER (PARTITION BY hash) AS stands FROM fragment WHERE hash "
+      "<> '{}') "
+      "WHERE name <> stands",
+      kUnreadable);
+  database.exec(
+      fmt::format("DELETE FROM pair WHERE a IN (SELECT id FROM fragment WHERE name IN ({0})) "
+                  "OR b IN (SELECT id FROM fragment WHERE name IN ({0}))",
+                  copies));
+}
 
 const char* name_of(FragmentState state) {
   switch (state) {

@@ -19,6 +19,9 @@ inline constexpr const char* kCandidateColumns =
 /// ", ?" for each of kCandidateColumns.
 std::string placeholders();
 
+/// Removes the pairs of copies() and their candidates.
+void remove_pairs_of_copies(SQLite::Database& database);
+
 const char* name_of(FragmentState state);
 FragmentState fragment_state(const std::string& name);
 Stage stage(const std::string& name);
