@@ -46,7 +46,7 @@ class OutlineShatterCommand final : public Command {
 
   ExitCode run(Console& console, Context& context) override {
     const outline::ShatterOptions options = complete_options();
-    require_empty();
+    require_empty_folder(folder_);
     context.report("breaking", 0.0);
     const outline::Shattered broken = outline::shatter(options, context);
     if (context.cancelled()) return interrupted(console);
@@ -71,14 +71,6 @@ class OutlineShatterCommand final : public Command {
     console.end_progress();
     console.warning("interrupted; the folder is not complete");
     return kInterrupted;
-  }
-
-  /// Pieces of another run among the new ones would be taken for theirs.
-  void require_empty() const {
-    require_writable_folder(folder_);
-    std::error_code ignored;
-    if (!std::filesystem::is_empty(folder_, ignored))
-      throw IoError(folder_, "the folder is not empty", "name a new or empty folder");
   }
 
   outline::ShatterOptions complete_options() const {

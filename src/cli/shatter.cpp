@@ -53,7 +53,7 @@ class ShatterCommand final : public Command {
     app.add_option("MESH", path_, "closed surface: ply, obj, stl, off, gltf, glb or drc")
         ->required()
         ->group("Input");
-    app.add_option("--out", out_, "write fragments and truth.json")
+    app.add_option("--out", out_, "new or empty folder for fragments and truth.json")
         ->type_name("DIR")
         ->required()
         ->group("Output");
@@ -69,7 +69,7 @@ class ShatterCommand final : public Command {
   }
 
   ExitCode run(Console& console, Context& context) override {
-    require_writable_folder(out_);
+    require_empty_folder(out_);
     options_.erosion = erosion_ / 100.0;
     options_.noise = noise_ / 100.0;
     options_.spacing = spacing_ / 100.0;

@@ -69,6 +69,13 @@ void require_writable_folder(const fs::path& folder) {
   fs::remove(probe, problem);
 }
 
+void require_empty_folder(const fs::path& folder) {
+  require_writable_folder(folder);
+  std::error_code ignored;
+  if (!fs::is_empty(folder, ignored))
+    throw IoError(folder.string(), "the folder is not empty", "name a new or empty folder");
+}
+
 void write_file(const fs::path& path, std::string_view content) {
   write_file(path, [content](std::ostream& out) {
     out.write(content.data(), static_cast<std::streamsize>(content.size()));

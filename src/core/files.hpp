@@ -19,6 +19,10 @@ void require_writable_file(const std::filesystem::path& path);
 /// \throws IoError it cannot be made, is no folder, or refuses files
 void require_writable_folder(const std::filesystem::path& folder);
 
+/// The same for a folder whose old content would be taken for part of the new.
+/// \throws IoError also if it holds anything
+void require_empty_folder(const std::filesystem::path& folder);
+
 /// The file appears whole or not at all (written beside and renamed); a device such as /dev/stdout is written
 /// to directly.  \throws IoError
 void write_file(const std::filesystem::path& path, std::string_view content);

@@ -39,6 +39,15 @@ TEST_F(BrokenBall, ShatterWritesItsTruth) {
   }
 }
 
+TEST_F(BrokenBall, ShatterRefusesAFolderInUseWhoseFragmentsWouldMixWithItsOwn) {
+  const std::string truth = read_file(scans_ + "/truth.json");
+  const Finished again = run({"shatter", folder_ / "ball.ply", "--pieces", "2", "--out", scans_});
+  EXPECT_EQ(again.exit_code, 1);
+  EXPECT_NE(again.err.find("not empty"), std::string::npos) << again.err;
+  EXPECT_TRUE(is_one_line(again.err)) << again.err;
+  EXPECT_EQ(read_file(scans_ + "/truth.json"), truth);
+}
+
 TEST_F(BrokenBall, AssembleOfAFolderMatchesAndPutsItTogether) {
   const std::string out = folder_ / "out";
   const Finished finished = run({"assemble", scans_, "--json", json_, "--out", out});
