@@ -5,6 +5,8 @@
 
 #include <filesystem>
 #include <optional>
+#include <system_error>
+#include <vector>
 
 #include "cli/assemble_constraints.hpp"
 #include "cli/assemble_files.hpp"
@@ -46,10 +48,10 @@ class AssembleCommand final : public Command {
     app.add_option("--constraints", constraints_, "JSON: pairs that must or must not join, poses")
         ->type_name("FILE")
         ->group("Input");
-    app.add_option("--json", json_, "write poses and joins (of a run: RUN/assembly.json)")
+    app.add_option("--json", json_, "poses and joins here too, not only in the run")
         ->type_name("FILE")
         ->group("Output");
-    app.add_option("--out", out_, "write models, transforms and a picture")
+    app.add_option("--out", out_, "models, transforms, a picture; for scans DIR/run too")
         ->type_name("DIR")
         ->group("Output");
     app.option_defaults()->group("Assembly");
@@ -59,11 +61,10 @@ class AssembleCommand final : public Command {
   }
 
   ExitCode run(Console& console, Context& context) override {
-    if (!json_ && is_run(input_)) json_ = (std::filesystem::path(input_) / "assembly.json").string();
-    if (json_) require_writable_file(*json_);
-    if (out_) require_writable_folder(*out_);
+    require_outputs();
+    const std::vector<std::filesystem::path> files = json_files(console);
     std::optional<std::filesystem::path> keep;
-    if (out_) keep = std::filesystem::path(*out_) / "run";
+    if (out_) keep = kept_run();
     const AssembleInput input = read_assemble_input(input_, keep, console, context);
     if (context.cancelled()) return stopped(console);
     if (constraints_) options_.constraints = read_constraints(*constraints_, input.names);
@@ -71,9 +72,9 @@ class AssembleCommand final : public Command {
     console.end_progress();
     for (const std::string& warning : result.warnings) console.warning(with_names(warning, input.names));
     if (result.cancelled) console.warning("interrupted; what follows is less than possible");
-    if (json_) write_file(*json_, assembly_json(input, result));
+    for (const auto& file : files) write_file(file, assembly_json(input, result));
     console.result(summary(input, result));
-    if (json_) console.result(fmt::format("wrote {}\n", *json_));
+    for (const auto& file : files) console.result(fmt::format("wrote {}\n", file.string()));
     if (out_ && !result.cancelled) {
       const NothingToSave guard;
       for (const auto& file : write_assembly(*out_, input, result))
@@ -83,6 +84,40 @@ class AssembleCommand final : public Command {
   }
 
  private:
+  std::filesystem::path kept_run() const { return std::filesystem::path(*out_) / "run"; }
+
+  /// Matching a folder of scans takes long: what comes of it must have a place.
+  void require_outputs() const {
+    if (!json_ && !out_ && std::filesystem::is_directory(input_) && !is_run(input_)) {
+      throw UsageError(input_, "is no run, so nothing would be kept of its assembly",
+                       "add --out DIR for all of it, or --json FILE for the poses alone");
+    }
+    if (json_) require_writable_file(*json_);
+    if (out_) require_writable_folder(*out_);
+  }
+
+  /// Where poses and joins go: into the run, where rejoin report looks for them, and where the user wants them.
+  std::vector<std::filesystem::path> json_files(Console& console) const {
+    std::vector<std::filesystem::path> files;
+    if (json_) files.emplace_back(*json_);
+    if (!out_ && !is_run(input_)) return files;
+    const std::filesystem::path in_run =
+        (is_run(input_) ? std::filesystem::path(input_) : kept_run()) / kAssemblyName;
+    std::error_code ignored;
+    if (json_ && std::filesystem::weakly_canonical(*json_, ignored) ==
+                     std::filesystem::weakly_canonical(in_run, ignored))
+      return files;
+    try {
+      require_writable_folder(in_run.parent_path());
+      require_writable_file(in_run);
+      files.push_back(in_run);
+    } catch (const IoError& error) {
+      if (!json_) throw;
+      console.warning(fmt::format("{}; rejoin report will not find this assembly", error.what()));
+    }
+    return files;
+  }
+
   ExitCode stopped(Console& console) const {
     console.end_progress();
     console.warning(out_ ? "interrupted; the same command goes on where it stopped" : "interrupted");

@@ -21,6 +21,9 @@ struct AssembleInput {
   std::map<std::string, std::string> bad;  ///< fragments that cannot be used or are copies, with the reason
 };
 
+/// Name of poses and joins in the run's folder.
+inline constexpr const char* kAssemblyName = "assembly.json";
+
 /// Whether the folder is that of a run.
 bool is_run(const std::filesystem::path& folder);
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "cli/assemble_input.hpp"
 #include "cli/json_values.hpp"
 #include "core/error.hpp"
 #include "mesh/load.hpp"
@@ -18,7 +19,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr const char* kAssemblyName = "assembly.json";
 constexpr std::size_t kMostFaces = 10'000'000;  ///< of all fragments together: a gigabyte
 constexpr std::size_t kFragmentFaces = 40'000;  ///< finer than the pictures show
 constexpr std::size_t kLeastFaces = 4'000;

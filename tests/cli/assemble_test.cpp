@@ -57,9 +57,10 @@ TEST_F(BrokenBall, AssembleOfAFolderMatchesAndPutsItTogether) {
   ASSERT_EQ(result["fragments"].size(), 3U);
   EXPECT_TRUE(result["unplaced"].empty());
   for (const char* file : {"/assembled.glb", "/assembled.ply", "/assembled.mlp", "/assembled.png",
-                           "/cloudcompare/fragment_00.ply.txt", "/run/pairs.csv"}) {
+                           "/cloudcompare/fragment_00.ply.txt", "/run/pairs.csv", "/run/assembly.json"}) {
     EXPECT_TRUE(std::filesystem::exists(out + file)) << file;
   }
+  EXPECT_EQ(read_file(out + "/run/assembly.json"), read_file(json_));
   // The glb's named nodes carry the transforms; the ply has all fragments' faces.
   std::size_t faces = 0;
   for (const auto& [name, fragment] : result["fragments"].items()) {
@@ -79,6 +80,14 @@ TEST_F(BrokenBall, AssembleOfAFolderMatchesAndPutsItTogether) {
   EXPECT_EQ(apart["unplaced"], ordered_json({"fragment_00.ply"}));
   EXPECT_TRUE(apart["fragments"]["fragment_00.ply"]["pose"].is_null());
   EXPECT_FALSE(apart["fragments"]["fragment_00.ply"]["reason"].get<std::string>().empty());
+  EXPECT_EQ(read_file(out + "/run/assembly.json"), read_file(json_)) << "the page shows the last assembly";
+}
+
+TEST_F(BrokenBall, AFolderOfScansIsNotMatchedForNothing) {
+  const Finished finished = run({"assemble", scans_});
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_NE(finished.err.find("--out"), std::string::npos) << finished.err;
+  EXPECT_TRUE(finished.out.empty()) << finished.out;
 }
 
 TEST_F(BrokenBall, AFolderWithoutScansOrARunIsRefused) {
