@@ -14,6 +14,7 @@
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
 #include "core/files.hpp"
+#include "core/words.hpp"
 
 namespace rejoin::cli {
 namespace {
@@ -21,9 +22,11 @@ namespace {
 std::string summary(const AssembleInput& input, const assembly::Result& result) {
   std::size_t placed = 0;
   for (const assembly::Placement& placement : result.placements) placed += placement.group >= 0 ? 1 : 0;
-  std::string text = fmt::format("{} of {} fragments placed, {} {}, {} joins\n", placed,
-                                 input.names.size() + input.bad.size(), result.groups,
-                                 result.groups == 1 ? "object" : "objects", result.joins.size());
+  std::string text = fmt::format(
+      "{} of {} placed, {}, {}\n", placed, counted(input.names.size() + input.bad.size(), "fragment"),
+      counted(static_cast<std::size_t>(result.groups), "object"), counted(result.joins.size(), "join"));
+  const std::string missing = store::told(input.remains);
+  if (!missing.empty()) text += fmt::format("  {}\n", missing);
   for (const assembly::Join& join : result.joins) {
     text +=
         fmt::format("  {} + {}: {}, contact {:.4g}\n", input.names[join.a], input.names[join.b],
@@ -32,8 +35,7 @@ std::string summary(const AssembleInput& input, const assembly::Result& result) 
   }
   for (std::size_t k = 0; k < input.names.size(); ++k) {
     if (result.placements[k].group >= 0) continue;
-    text += fmt::format("  {} not placed: {}\n", input.names[k],
-                        with_names(result.placements[k].reason, input.names));
+    text += fmt::format("  {} not placed: {}\n", input.names[k], reason_of(input, result, k));
   }
   for (const auto& [name, reason] : input.bad) text += fmt::format("  {} not placed: {}\n", name, reason);
   return text;
@@ -70,7 +72,7 @@ class AssembleCommand final : public Command {
     if (constraints_) options_.constraints = read_constraints(*constraints_, input.names);
     const assembly::Result result = assembly::assemble(input.fragments, input.links, options_, context);
     console.end_progress();
-    for (const std::string& warning : result.warnings) console.warning(with_names(warning, input.names));
+    for (const std::string& warning : warnings_of(input, result)) console.warning(warning);
     if (result.cancelled) console.warning("interrupted; what follows is less than possible");
     for (const auto& file : files) write_file(file, assembly_json(input, result));
     console.result(summary(input, result));

@@ -92,6 +92,20 @@ std::string with_names(const std::string& text, const std::vector<std::string>& 
   return result.append(last, text.cend());
 }
 
+std::string reason_of(const AssembleInput& input, const assembly::Result& result, std::size_t fragment) {
+  const std::string reason = with_names(result.placements[fragment].reason, input.names);
+  const std::string missing = store::told(input.remains, input.names[fragment]);
+  return missing.empty() ? reason : reason + "; " + missing;
+}
+
+std::vector<std::string> warnings_of(const AssembleInput& input, const assembly::Result& result) {
+  std::vector<std::string> list;
+  const std::string missing = store::told(input.remains);
+  if (!missing.empty()) list.push_back(missing);
+  for (const std::string& warning : result.warnings) list.push_back(with_names(warning, input.names));
+  return list;
+}
+
 std::string assembly_json(const AssembleInput& input, const assembly::Result& result) {
   ordered_json fragments = ordered_json::object();
   ordered_json unplaced = ordered_json::array();
@@ -99,7 +113,7 @@ std::string assembly_json(const AssembleInput& input, const assembly::Result& re
     const assembly::Placement& placement = result.placements[k];
     if (placement.group < 0) {
       unplaced.push_back(input.names[k]);
-      fragments[input.names[k]] = left_out(with_names(placement.reason, input.names));
+      fragments[input.names[k]] = left_out(reason_of(input, result, k));
       continue;
     }
     fragments[input.names[k]] = {
@@ -114,6 +128,8 @@ std::string assembly_json(const AssembleInput& input, const assembly::Result& re
                   {"joins", joins_json(input, result)},
                   {"unplaced", unplaced},
                   {"groups", result.groups},
+                  {"pairs_missing", input.remains.missing},
+                  {"warnings", warnings_of(input, result)},
                   {"interrupted", result.cancelled},
                   {"version", kVersion}});
 }

@@ -62,6 +62,7 @@ std::map<std::int64_t, std::size_t> load_all(const store::Run& run, const fs::pa
 AssembleInput read_run(const fs::path& folder, Console& console, const Context& context) {
   const store::Run run = store::Run::open(folder);
   AssembleInput input;
+  input.remains = store::remains(run);
   const auto number = load_all(run, folder, input, console, context);
   if (input.fragments.size() < 2 && !context.cancelled())
     throw InputError(folder.string(), "fewer than two of its fragments can be used", "see the warnings");

@@ -9,6 +9,7 @@
 
 #include "assembly/assembly.hpp"
 #include "cli/console.hpp"
+#include "store/remains.hpp"
 
 namespace rejoin::cli {
 
@@ -18,6 +19,7 @@ struct AssembleInput {
   std::vector<std::string> paths;  ///< where the scans were read
   std::vector<match::Fragment> fragments;
   std::vector<assembly::Link> links;
+  store::Remains remains;                  ///< of the run
   std::map<std::string, std::string> bad;  ///< fragments that cannot be used or are copies, with the reason
 };
 

@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "mesh/load.hpp"
 #include "mesh/surface.hpp"
+#include "store/remains.hpp"
 #include "store/run.hpp"
 
 namespace rejoin::cli {
@@ -169,7 +170,7 @@ void add_pairs(report::RunReport& report, const store::Run& run, const Numbers& 
 }
 
 /// What can be said of a fragment that the assembly leaves out without a word.
-void add_reasons(report::RunReport& report, bool assembled) {
+void add_reasons(report::RunReport& report, bool assembled, const store::Remains& remains) {
   std::vector<const report::ReportPair*> best(report.fragments.size(), nullptr);
   for (const report::ReportPair& pair : report.pairs) {
     for (const std::size_t k : {pair.a, pair.b}) {
@@ -187,6 +188,8 @@ void add_reasons(report::RunReport& report, bool assembled) {
       fragment.reason = best[k]->verdict == "join" ? "its joints contradict the assembly"
                                                    : "none of its joints is sure enough";
     }
+    const std::string missing = store::told(remains, fragment.name);
+    if (!missing.empty()) fragment.reason += "; " + missing;
   }
 }
 
@@ -232,7 +235,11 @@ report::RunReport read_run(const std::filesystem::path& run, std::size_t listed,
   const std::filesystem::path assembly = folder / kAssemblyName;
   const bool assembled = std::filesystem::exists(assembly);
   if (assembled) AssemblyReader(assembly, report, numbers).read();
-  add_reasons(report, assembled);
+  const store::Remains remains = store::remains(database);
+  report.missing_pairs = remains.missing;
+  const std::string missing = store::told(remains);
+  if (!missing.empty()) report.warnings.push_back(missing);
+  add_reasons(report, assembled, remains);
   add_parameters(report, database, folder);
   read_scans(report, console, context);
   return report;

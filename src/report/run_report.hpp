@@ -59,6 +59,7 @@ struct RunReport {
   std::string title;
   std::vector<ReportFragment> fragments;
   std::vector<ReportPair> pairs;  ///< any order; each two fragments at most once
+  std::size_t missing_pairs = 0;  ///< that are not compared yet
   std::vector<std::pair<std::string, std::string>> parameters;  ///< shown as they are, in this order
   std::vector<std::string> warnings;
 };

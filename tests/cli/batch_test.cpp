@@ -239,6 +239,29 @@ TEST_F(Batch, SameScanUnderTwoNamesIsToldAndLeftOutByWholeRunsAndShards) {
   EXPECT_EQ(assembly["fragments"]["b7.ply"]["reason"], "is the same scan as a9.ply, which stands for both");
 }
 
+TEST_F(Batch, AssemblyOfAnUnfinishedRunSaysHowManyPairsAreMissing) {
+  fs::copy(*home_ / "undisturbed", run_, fs::copy_options::recursive);
+  SQLite::Database(run_ + "/run.sqlite", SQLite::OPEN_READWRITE)
+      .exec(
+          "UPDATE candidate SET score = 0.1; DELETE FROM pair WHERE a = (SELECT id FROM fragment WHERE name "
+          "= 'a7.ply')");
+  const Finished assembled = run({"assemble", run_});
+  ASSERT_EQ(assembled.exit_code, 0) << assembled.err;
+  const std::string told = "2 of 3 pairs are not compared yet";
+  EXPECT_NE(assembled.out.find(told), std::string::npos) << assembled.out;
+  const json assembly = json::parse(read_file(run_ + "/assembly.json"));
+  EXPECT_EQ(assembly["pairs_missing"], 2);
+  ASSERT_EQ(assembly["warnings"].size(), 1U);
+  EXPECT_EQ(assembly["warnings"][0].get<std::string>().rfind(told, 0), 0U);
+  const auto reason = [&](const char* name) {
+    return assembly["fragments"][name]["reason"].get<std::string>();
+  };
+  EXPECT_NE(reason("a7.ply").find("2 of its 2 pairs are not compared yet"), std::string::npos)
+      << reason("a7.ply");
+  EXPECT_NE(reason("b7.ply").find("1 of its 2 pairs is not compared yet"), std::string::npos)
+      << reason("b7.ply");
+}
+
 TEST_F(Batch, JsonLinesAreValidAndCountUp) {
   const Finished finished = run({"batch", scans(), "--out", run_, "--json"});
   ASSERT_EQ(finished.exit_code, 0);

@@ -113,6 +113,7 @@ std::string page_json(const PageData& data) {
                              {"fragments", fragments},
                              {"gap_scale", data.gap_scale},
                              {"compared", report.pairs.size()},
+                             {"missing", report.missing_pairs},
                              {"pairs", pairs},
                              {"scores", base64(score_triangle(report))},
                              {"parameters", parameters},

@@ -15,6 +15,7 @@ export function overview(data, choose) {
     [used.length, used.length === 1 ? 'join used' : 'joins used'],
     [data.compared, data.compared === 1 ? 'pair compared' : 'pairs compared'],
   ];
+  if (data.missing > 0) figures.push([data.missing, data.missing === 1 ? 'pair not compared yet' : 'pairs not compared yet']);
   return h(
     'section',
     {id: 'overview', 'aria-labelledby': 'overview-title'},

@@ -1,0 +1,60 @@
+#include "store/remains.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace rejoin::store {
+namespace {
+
+std::string not_compared(std::size_t missing, const char* of, std::size_t all) {
+  return fmt::format("{} of {}{} pairs {} not compared yet", missing, of, all, missing == 1 ? "is" : "are");
+}
+
+}  // namespace
+
+Remains remains(const Run& run) {
+  const std::vector<Fragment> fragments = run.fragments();
+  const std::map<std::string, std::string> left_out = copies(fragments);
+  std::map<std::int64_t, std::size_t> missing;  // by id
+  const std::size_t count = fragments.size() - left_out.size();
+  Remains result;
+  result.shard = run.shard();
+  result.pairs_each = count > 0 ? count - 1 : 0;
+  result.pairs = result.missing = count * result.pairs_each / 2;
+  for (const Fragment& fragment : fragments)
+    if (left_out.count(fragment.name) == 0) missing[fragment.id] = result.pairs_each;
+  for (const Run::Done& pair : run.done()) {
+    const auto a = missing.find(pair.a);
+    const auto b = missing.find(pair.b);
+    if (a == missing.end() || b == missing.end()) continue;
+    --a->second;
+    --b->second;
+    --result.missing;
+  }
+  for (const Fragment& fragment : fragments) {
+    const auto at = missing.find(fragment.id);
+    if (at != missing.end() && at->second > 0) result.missing_of[fragment.name] = at->second;
+  }
+  return result;
+}
+
+std::string told(const Remains& remains) {
+  if (remains.missing == 0 && remains.shard.empty()) return "";
+  if (remains.missing == 0)
+    return fmt::format("this is shard {} only, rejoin merge puts it together with the others", remains.shard);
+  return not_compared(remains.missing, "", remains.pairs) +
+         (remains.shard.empty()
+              ? "; rejoin batch goes on with them"
+              : fmt::format("; this is shard {}, rejoin merge puts it together with the others",
+                            remains.shard));
+}
+
+std::string told(const Remains& remains, const std::string& fragment) {
+  const auto at = remains.missing_of.find(fragment);
+  if (at == remains.missing_of.end()) return "";
+  return not_compared(at->second, "its ", remains.pairs_each);
+}
+
+}  // namespace rejoin::store

@@ -1,0 +1,29 @@
+/// What of a run is still to be compared.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+
+#include "store/run.hpp"
+
+namespace rejoin::store {
+
+struct Remains {
+  std::size_t pairs = 0;       ///< of the fragments that the database knows, copies() left out
+  std::size_t missing = 0;     ///< of those; the failed are not missing
+  std::size_t pairs_each = 0;  ///< of one fragment with all others
+  std::map<std::string, std::size_t> missing_of;  ///< by fragment, where any is missing
+  std::string shard;                              ///< as Run::shard()
+};
+
+/// \throws StoreError the database cannot be read
+Remains remains(const Run& run);
+
+/// A sentence without its full stop; empty if nothing is missing and the run is no shard.
+std::string told(const Remains& remains);
+
+/// The same of one fragment: "5 of its 8 pairs are not compared yet".
+std::string told(const Remains& remains, const std::string& fragment);
+
+}  // namespace rejoin::store
