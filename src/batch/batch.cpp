@@ -115,7 +115,7 @@ class Work {
     for (const std::string& name : needed) {
       store::Fragment fragment;
       fragment.name = name;
-      fragment.path = (inputs_ / name).string();
+      fragment.path = fs::absolute(inputs_ / name).lexically_normal().string();
       list.push_back(std::move(fragment));
     }
     run_side_by_side(list.size(), [&](std::size_t k) {

@@ -25,15 +25,8 @@ void require_body(const mesh::Mesh& scan, const std::string& path) {
                    "give the scan of a whole fragment");
 }
 
-/// The kept surface, if it is there and whole.
-std::optional<mesh::Mesh> kept_surface(const fs::path& kept) {
-  std::error_code ignored;
-  if (!fs::is_regular_file(kept, ignored)) return std::nullopt;
-  try {
-    return mesh::load(kept).mesh;
-  } catch (const Error&) {
-    return std::nullopt;  // cut short by a power failure: made again
-  }
+fs::path kept_file(const store::Fragment& fragment, const fs::path& cache) {
+  return cache / (fragment.hash + ".drc");
 }
 
 /// \throws StoreError the folder refuses the file: our disk is at fault, not the scan
@@ -74,10 +67,21 @@ Outcome prepare_one(const store::Fragment& fragment, const fs::path& cache, cons
 
 }  // namespace
 
+std::optional<mesh::Mesh> kept_surface(const store::Fragment& fragment, const fs::path& cache) {
+  const fs::path kept = kept_file(fragment, cache);
+  std::error_code ignored;
+  if (!fs::is_regular_file(kept, ignored)) return std::nullopt;
+  try {
+    return mesh::load(kept).mesh;
+  } catch (const Error&) {
+    return std::nullopt;  // cut short by a power failure: made again
+  }
+}
+
 match::Fragment load_prepared(const store::Fragment& fragment, const fs::path& cache,
                               const Context& context) {
-  const fs::path kept = cache / (fragment.hash + ".drc");
-  std::optional<mesh::Mesh> surface = kept_surface(kept);
+  const fs::path kept = kept_file(fragment, cache);
+  std::optional<mesh::Mesh> surface = kept_surface(fragment, cache);
   if (!surface) {
     const mesh::Mesh scan = mesh::load(fragment.path).mesh;
     require_body(scan, fragment.path);

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ namespace rejoin::batch {
 /// \throws InputError, IoError the scan cannot be used, or the cache not written
 match::Fragment load_prepared(const store::Fragment& fragment, const std::filesystem::path& cache,
                               const Context& context);
+
+/// The surface kept under `cache`, if it is there and whole.
+std::optional<mesh::Mesh> kept_surface(const store::Fragment& fragment, const std::filesystem::path& cache);
 
 /// The prepared fragments that the pairs in hand need.
 class Shelf {

@@ -6,10 +6,13 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "batch/shelf.hpp"
 #include "cli/assemble_input.hpp"
 #include "cli/json_values.hpp"
 #include "core/error.hpp"
+#include "core/words.hpp"
 #include "mesh/load.hpp"
 #include "mesh/surface.hpp"
 #include "store/remains.hpp"
@@ -105,28 +108,79 @@ class AssemblyReader {
   const Numbers& numbers_;
 };
 
-mesh::Mesh read_surface(const std::string& path, std::size_t faces) {
-  mesh::Mesh scan = mesh::load(path).mesh;
-  if (scan.is_cloud()) scan = mesh::surface_of_cloud(scan);
-  return mesh::simplify(scan, faces);
+/// The scan's surface, or the one that the run keeps of it; none of what is no scan or a copy.
+class SurfaceReader {
+ public:
+  SurfaceReader(std::filesystem::path cache, std::size_t faces) : cache_(std::move(cache)), faces_(faces) {}
+
+  /// \throws Error there is neither
+  mesh::Mesh read(const store::Fragment& fragment) {
+    try {
+      return made_ready(mesh::load(fragment.path).mesh);
+    } catch (const Error&) {
+      std::optional<mesh::Mesh> kept = batch::kept_surface(fragment, cache_);
+      if (!kept) throw;
+      if (instead_++ == 0) first_ = fragment.path;
+      return made_ready(std::move(*kept));
+    }
+  }
+
+  /// Empty if all scans could be read.
+  std::string warning() const {
+    if (instead_ == 0) return "";
+    return fmt::format(
+        "{} cannot be read where rejoin batch found {} ({}{}); shown instead is what the run keeps",
+        counted(instead_, "scan"), instead_ == 1 ? "it" : "them", first_, instead_ == 1 ? "" : ", ...");
+  }
+
+ private:
+  mesh::Mesh made_ready(mesh::Mesh scan) const {
+    if (scan.is_cloud()) scan = mesh::surface_of_cloud(scan);
+    return mesh::simplify(scan, faces_);
+  }
+
+  std::filesystem::path cache_;
+  std::size_t faces_;
+  std::size_t instead_ = 0;
+  std::string first_;
+};
+
+void warn(report::RunReport& report, Console& console, const std::string& text) {
+  console.end_progress();
+  console.warning(text);
+  report.warnings.push_back(text);
 }
 
-void read_scans(report::RunReport& report, Console& console, const Context& context) {
+/// \param stored  of the report's fragments, in their order
+void read_scans(report::RunReport& report, const std::vector<store::Fragment>& stored,
+                const std::filesystem::path& folder, Console& console, const Context& context) {
+  const std::map<std::string, std::string> copies = store::copies(stored);
   const std::size_t count = report.fragments.size();
   const std::size_t faces =
       std::clamp(kMostFaces / std::max<std::size_t>(1, count), kLeastFaces, kFragmentFaces);
+  SurfaceReader reader(folder / "fragments", faces);
+  bool any = false;
   for (std::size_t k = 0; k < count && !context.cancelled(); ++k) {
     context.report("scans", static_cast<double>(k) / static_cast<double>(count));
     report::ReportFragment& fragment = report.fragments[k];
+    if (copies.count(fragment.name) != 0) continue;
     try {
-      fragment.mesh = read_surface(fragment.path, faces);
+      if (stored[k].state == store::FragmentState::Bad) {
+        warn(report, console, stored[k].error);
+      } else {
+        fragment.mesh = reader.read(stored[k]);
+      }
     } catch (const Error& error) {
-      console.end_progress();
-      console.warning(error.what());
-      report.warnings.emplace_back(error.what());
+      warn(report, console, error.what());
     }
     if (fragment.mesh.faces.empty()) fragment.mesh = {};
+    any = any || !fragment.mesh.faces.empty();
   }
+  if (!reader.warning().empty()) warn(report, console, reader.warning());
+  if (!any && !context.cancelled())
+    warn(report, console,
+         "no surface could be read, so the page has no pictures: run rejoin batch again on the scans, where "
+         "they are now");
 }
 
 std::vector<report::ReportFigure> figures(const store::Pair& pair,
@@ -241,7 +295,7 @@ report::RunReport read_run(const std::filesystem::path& run, std::size_t listed,
   if (!missing.empty()) report.warnings.push_back(missing);
   add_reasons(report, assembled, remains);
   add_parameters(report, database, folder);
-  read_scans(report, console, context);
+  read_scans(report, fragments, folder, console, context);
   return report;
 }
 

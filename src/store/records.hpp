@@ -32,7 +32,7 @@ inline constexpr const char* kUnreadable = "unreadable";
 struct Fragment {
   std::int64_t id = 0;  ///< > 0 in a database; 0: none yet
   std::string name;     ///< the file's name in its folder, unique in the run
-  std::string path;     ///< where it was read
+  std::string path;     ///< where it was read, absolute
   std::string hash;     ///< of the file's content, hexadecimal
   std::int64_t faces = 0;
   double diameter = 0;  ///< mesh units

@@ -239,6 +239,28 @@ TEST_F(Batch, SameScanUnderTwoNamesIsToldAndLeftOutByWholeRunsAndShards) {
   EXPECT_EQ(assembly["fragments"]["b7.ply"]["reason"], "is the same scan as a9.ply, which stands for both");
 }
 
+TEST_F(Batch, RunKnowsItsScansFromAnyFolderAndKeepsTheirSurfacesWhereTheyAreGone) {
+  make_scans(folder_ / "scans");
+  ASSERT_EQ(
+      std::system(("cd " + (folder_ / "") + " && " REJOIN_PROGRAM " batch scans --out run --quiet").c_str()),
+      0);
+  SQLite::Database database(run_ + "/run.sqlite", SQLite::OPEN_READONLY);
+  EXPECT_EQ(database.execAndGet("SELECT path FROM fragment WHERE name = 'a7.ply'").getString(),
+            folder_ / "scans/a7.ply");
+#ifdef REJOIN_VIEWER
+  ASSERT_EQ(run({"report", run_, "--pictures", "0"}).err, "");
+  fs::rename(folder_ / "scans", folder_ / "moved");
+  const Finished kept = run({"report", run_, "--pictures", "0"});
+  EXPECT_EQ(kept.exit_code, 0);
+  EXPECT_NE(kept.err.find("3 scans cannot be read where rejoin batch found them"), std::string::npos)
+      << kept.err;
+  EXPECT_EQ(kept.err.find("no surface"), std::string::npos) << kept.err;
+  fs::remove_all(run_ + "/fragments");
+  const Finished nothing = run({"report", run_, "--pictures", "0"});
+  EXPECT_NE(nothing.err.find("no surface could be read"), std::string::npos) << nothing.err;
+#endif
+}
+
 TEST_F(Batch, AssemblyOfAnUnfinishedRunSaysHowManyPairsAreMissing) {
   fs::copy(*home_ / "undisturbed", run_, fs::copy_options::recursive);
   SQLite::Database(run_ + "/run.sqlite", SQLite::OPEN_READWRITE)
