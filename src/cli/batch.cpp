@@ -12,6 +12,7 @@
 #include "cli/arguments.hpp"
 #include "cli/batch_listeners.hpp"
 #include "cli/command.hpp"
+#include "core/words.hpp"
 
 namespace rejoin::cli {
 namespace {
@@ -74,9 +75,15 @@ class BatchCommand final : public Command {
  private:
   std::string text_of(const batch::Summary& summary, double seconds) const {
     const batch::Progress& progress = summary.progress;
-    return fmt::format("{} fragments, {} of {} pairs done, {} of them now, in {}\nwrote {}/{}\n",
-                       summary.fragments, progress.done, progress.total, progress.done - summary.done_before,
-                       duration_text(seconds), out_, batch::kTableName);
+    std::string text = counted(summary.fragments, "fragment");
+    if (summary.copies > 0)
+      text += fmt::format(" ({} left out)",
+                          summary.copies == 1 ? "a copy" : std::to_string(summary.copies) + " copies");
+    // Scripts look for these words (scripts/slurm/shard), so they stay as they are for one pair too.
+    text += fmt::format(", {} of {} pairs done, {} of them now", progress.done, progress.total,
+                        progress.done - summary.done_before);
+    if (progress.failed > 0) text += fmt::format(", {} failed", progress.failed);
+    return text + fmt::format(", in {}\nwrote {}/{}\n", duration_text(seconds), out_, batch::kTableName);
   }
 
   ExitCode tell_end(Console& console, const batch::Summary& summary) const {
@@ -85,10 +92,11 @@ class BatchCommand final : public Command {
       return kInterrupted;
     }
     if (summary.progress.failed == 0 && summary.bad.empty()) return kDone;
-    console.warning(
-        fmt::format("{} of {} pairs failed, {} scans cannot be used; mend them and run the same command "
-                    "again, or add --retry",
-                    summary.progress.failed, summary.progress.total, summary.bad.size()));
+    console.warning(fmt::format(
+        "{} of {} failed, {} cannot be used; mend what is wrong and run the same command again, or add "
+        "--retry",
+        summary.progress.failed, counted(summary.progress.total, "pair"),
+        counted(summary.bad.size(), "scan")));
     return kFailure;
   }
 

@@ -11,6 +11,7 @@
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
 #include "core/files.hpp"
+#include "core/words.hpp"
 #include "store/run.hpp"
 
 namespace rejoin::cli {
@@ -29,13 +30,13 @@ class MergeCommand final : public Command {
     const store::Merged merged = store::merge({runs_.begin(), runs_.end()}, out_);
     const store::Run whole = store::Run::open(out_);
     batch::write_table(whole, std::filesystem::path(out_) / batch::kTableName);
-    console.result(fmt::format("{} fragments, {} pairs", merged.fragments, merged.pairs));
+    console.result(counted(merged.fragments, "fragment") + ", " + counted(merged.pairs, "pair"));
     const std::size_t different = merged.fragments - store::copies(whole.fragments()).size();
     const std::size_t all = different * (different - 1) / 2;
-    if (merged.pairs < all) console.result(fmt::format(" ({} are still to be done)", all - merged.pairs));
+    if (merged.pairs < all) console.result(fmt::format(" ({} still to be done)", all - merged.pairs));
     console.result(fmt::format("\nwrote {}/{}\n", out_, batch::kTableName));
     if (merged.failed == 0) return kDone;
-    console.warning(fmt::format("{} pairs failed; the table tells why", merged.failed));
+    console.warning(counted(merged.failed, "pair") + " failed; the table tells why");
     return kFailure;
   }
 

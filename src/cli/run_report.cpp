@@ -99,6 +99,7 @@ class AssemblyReader {
     pair.b = b;
     pair.score = join.value("score", 0.0);
     pair.verdict = "touch";
+    pair.comparison = report::Comparison::Touches;
     pair.used = true;
     report_.pairs.push_back(std::move(pair));
   }
@@ -214,6 +215,7 @@ void add_pairs(report::RunReport& report, const store::Run& run, const Numbers& 
     pair.b = numbers.at(stored.name_b);
     pair.score = stored.score;
     pair.verdict = verdict_of(stored);
+    if (stored.stage == store::Stage::Failed) pair.comparison = report::Comparison::Failed;
     if (rank++ < listed) {
       const std::vector<store::Candidate> candidates = run.candidates(stored);
       pair.figures = figures(stored, candidates);
@@ -227,6 +229,7 @@ void add_pairs(report::RunReport& report, const store::Run& run, const Numbers& 
 void add_reasons(report::RunReport& report, bool assembled, const store::Remains& remains) {
   std::vector<const report::ReportPair*> best(report.fragments.size(), nullptr);
   for (const report::ReportPair& pair : report.pairs) {
+    if (pair.comparison == report::Comparison::Failed) continue;
     for (const std::size_t k : {pair.a, pair.b}) {
       if (best[k] == nullptr || pair.score > best[k]->score) best[k] = &pair;
     }

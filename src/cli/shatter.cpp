@@ -10,6 +10,7 @@
 #include "cli/json_values.hpp"
 #include "core/files.hpp"
 #include "core/version.hpp"
+#include "core/words.hpp"
 #include "mesh/load.hpp"
 #include "mesh/save.hpp"
 
@@ -84,8 +85,8 @@ class ShatterCommand final : public Command {
     }
     const std::string truth = (folder / "truth.json").string();
     write_file(truth, text_of(truth_json(path_, options_, shattered)));
-    console.result(fmt::format("{} fragments, {} joins\nwrote {}\n", shattered.pieces.size(),
-                               shattered.contacts.size(), truth));
+    console.result(fmt::format("{}, {}\nwrote {}\n", counted(shattered.pieces.size(), "fragment"),
+                               counted(shattered.contacts.size(), "join"), truth));
     return kDone;
   }
 

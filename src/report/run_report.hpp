@@ -42,7 +42,14 @@ struct ReportPicture {
   std::vector<std::uint8_t> jpeg;
 };
 
-/// Two fragments that were compared.
+/// What is known of a pair.
+enum class Comparison {
+  Done,
+  Failed,   ///< `verdict` says why; there is no score
+  Touches,  ///< not compared: the assembly has put the two together by other joins
+};
+
+/// Two fragments that were compared, or touch.
 struct ReportPair {
   std::size_t a = 0;          ///< index of the fragment
   std::size_t b = 0;          ///< index of the other; != a
@@ -51,7 +58,8 @@ struct ReportPair {
   bool used = false;          ///< the assembly stands on this joint
   std::optional<Rigid> pose;  ///< B's file coordinates -> A's
   std::vector<ReportFigure> figures;
-  std::vector<ReportPicture> pictures;  ///< filled by write_run_report() for the best pairs where empty
+  std::vector<ReportPicture> pictures = {};  ///< filled by write_run_report() for the best pairs where empty
+  Comparison comparison = Comparison::Done;
 };
 
 /// All that the page shows.

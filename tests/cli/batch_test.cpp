@@ -181,7 +181,12 @@ TEST_F(Batch, BadScanIsReportedAndTheRestGoesOn) {
   SQLite::Database database(run_ + "/run.sqlite", SQLite::OPEN_READONLY);
   EXPECT_EQ(database.execAndGet("SELECT count(*) FROM pair WHERE stage <> 'failed'").getInt(), 3);
   EXPECT_EQ(database.execAndGet("SELECT count(*) FROM pair WHERE stage = 'failed'").getInt(), 3);
-  EXPECT_EQ(run({"batch", folder_ / "scans", "--out", run_}).exit_code, 1) << "still bad";
+  const Finished again = run({"batch", folder_ / "scans", "--out", run_});
+  EXPECT_EQ(again.exit_code, 1) << "still bad";
+  EXPECT_NE(again.out.find("6 of 6 pairs done, 0 of them now, 3 failed"), std::string::npos) << again.out;
+  ASSERT_EQ(run({"assemble", run_}).exit_code, 0);
+  const std::string reason = json::parse(read_file(run_ + "/assembly.json"))["fragments"]["c.ply"]["reason"];
+  EXPECT_EQ(reason.find("c.ply"), reason.rfind("c.ply")) << reason;
 
   mesh::save(folder_ / "scans/c.ply", match::testing::planted_pair(9, kCells).a);
   const Finished mended = run({"batch", folder_ / "scans", "--out", run_});

@@ -83,6 +83,32 @@ TEST(Report, ShowsWhatTheAssemblyPlacedAndWhyNotTheRest) {
   EXPECT_GE(data["pairs"][0]["pictures"].size(), 4U);
 }
 
+TEST(Report, CountsAPairThatFailedAsFailedAndGivesItNoScore) {
+  const PlantedRun run;
+  {
+    store::Run database = store::Run::write(run.folder);
+    const auto list = database.fragments();
+    store::Pair failed;
+    failed.a = list[0].id;
+    failed.b = list[2].id;
+    failed.error = "gone.ply: is no mesh";
+    failed.result = "{}";
+    database.save(failed, {});
+    store::Fragment gone = list[2];
+    gone.state = store::FragmentState::Bad;
+    gone.error = "scans/gone.ply: is no mesh; give a mesh";
+    database.save(gone);
+  }
+  const Finished finished = testing::run({"report", run.folder, "--pictures", "0"});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  const json data = data_of(read_file(run.page));
+  EXPECT_EQ(data["compared"], 1);
+  EXPECT_EQ(data["failed"], 1);
+  EXPECT_EQ(data["missing"], 1);
+  EXPECT_EQ(data["pairs"][1]["failed"], true);
+  EXPECT_EQ(data["warnings"][1], "scans/gone.ply: is no mesh; give a mesh") << "the path once";
+}
+
 TEST(Report, WithoutAnAssemblySaysSo) {
   const PlantedRun run;
   const Finished finished =

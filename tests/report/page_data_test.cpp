@@ -90,7 +90,8 @@ TEST(ScoreTriangle, HoldsEveryPairOnceWhicheverComesFirst) {
   report.fragments.resize(4);
   report.pairs.push_back({3, 1, 0.5, "join", false, std::nullopt, {}, {}});
   report.pairs.push_back({0, 2, 1.5, "join", false, std::nullopt, {}, {}});
-  EXPECT_EQ(detail::score_triangle(report), (std::vector<std::uint8_t>{255, 254, 255, 255, 127, 255}));
+  report.pairs.push_back({2, 3, 0, "failed: is no mesh", false, std::nullopt, {}, {}, Comparison::Failed});
+  EXPECT_EQ(detail::score_triangle(report), (std::vector<std::uint8_t>{255, 253, 255, 255, 127, 254}));
 }
 
 }  // namespace

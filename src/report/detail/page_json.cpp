@@ -64,6 +64,7 @@ ordered_json pair_json(const ReportPair& pair, const std::vector<ReportPicture>&
           {"b", pair.b},
           {"score", pair.score},
           {"verdict", pair.verdict},
+          {"failed", pair.comparison == Comparison::Failed},
           {"used", pair.used},
           {"figures", figures},
           {"pictures", pictures_json(pictures)}};
@@ -87,19 +88,26 @@ std::string without_less_than(const std::string& json) {
 
 std::vector<std::uint8_t> score_triangle(const RunReport& report) {
   constexpr std::uint8_t kNotCompared = 255;
+  constexpr std::uint8_t kFailed = 254;
   const std::size_t n = report.fragments.size();
   std::vector<std::uint8_t> scores(n < 2 ? 0 : n * (n - 1) / 2, kNotCompared);
   for (const ReportPair& pair : report.pairs) {
     const std::size_t row = std::min(pair.a, pair.b);
     const std::size_t column = std::max(pair.a, pair.b);
     scores[row * (2 * n - row - 1) / 2 + column - row - 1] =
-        static_cast<std::uint8_t>(std::lround(254.0 * std::clamp(pair.score, 0.0, 1.0)));
+        pair.comparison == Comparison::Failed
+            ? kFailed
+            : static_cast<std::uint8_t>(std::lround(253.0 * std::clamp(pair.score, 0.0, 1.0)));
   }
   return scores;
 }
 
 std::string page_json(const PageData& data) {
   const RunReport& report = *data.report;
+  const auto number_of = [&](Comparison wanted) {
+    return std::count_if(report.pairs.begin(), report.pairs.end(),
+                         [&](const ReportPair& pair) { return pair.comparison == wanted; });
+  };
   ordered_json fragments = ordered_json::array();
   for (std::size_t k = 0; k < report.fragments.size(); ++k)
     fragments.push_back(fragment_json(report.fragments[k], data.meshes[k]));
@@ -112,7 +120,8 @@ std::string page_json(const PageData& data) {
                              {"title", report.title},
                              {"fragments", fragments},
                              {"gap_scale", data.gap_scale},
-                             {"compared", report.pairs.size()},
+                             {"compared", number_of(Comparison::Done)},
+                             {"failed", number_of(Comparison::Failed)},
                              {"missing", report.missing_pairs},
                              {"pairs", pairs},
                              {"scores", base64(score_triangle(report))},

@@ -75,8 +75,7 @@ export class Assembly {
     this.detail = h('div', {class: 'detail', 'aria-live': 'polite', id: 'chosen'});
     this.legend = h('div', {class: 'legend'});
     this.list = h('ul', {class: 'fragments', 'aria-label': 'Fragments'});
-    const placed = this.data.fragments.filter((fragment) => fragment.pose).length;
-    const loose = this.data.fragments.length - placed;
+    const loose = this.data.fragments.filter((fragment) => !fragment.pose && fragment.mesh).length;
     const help = h(
       'details',
       {class: 'help', id: 'keys'},
@@ -125,7 +124,7 @@ export class Assembly {
     this.rows = new Map();
     const rows = this.data.fragments.map((fragment, index) => {
       if (!fragment.name.toLowerCase().includes(wanted.toLowerCase())) return null;
-      const box = h('input', {type: 'checkbox', 'aria-label': `show ${shortened(tidy(fragment.name), 60)}`, onchange: () => this.#setHidden(index, !box.checked)});
+      const box = h('input', {type: 'checkbox', disabled: !fragment.mesh, 'aria-label': `show ${shortened(tidy(fragment.name), 60)}`, onchange: () => this.#setHidden(index, !box.checked)});
       const button = h('button', {type: 'button', class: 'pick', onclick: () => this.choose(this.chosen.has(index) ? [] : [index])}, h('i', {class: 'swatch'}), nameElement(fragment.name, {limit: 40}));
       const row = h('li', {}, box, button, h('small', {}, fragment.pose ? percent(fragment.confidence) : 'not placed'));
       this.rows.set(index, {row, box, button});

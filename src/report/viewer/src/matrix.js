@@ -4,6 +4,8 @@ import {h, nameElement, replace, shortened, tidy} from './dom.js';
 import {bytesOf} from './numbers.js';
 
 const NOT_COMPARED = 255;
+const FAILED = 254;
+const FULL_SCORE = 253;
 const LABELLED = 48; // fragments that still get their names written beside
 
 export class Matrix {
@@ -39,10 +41,21 @@ export class Matrix {
     return this.data.fragments[index].group ?? Infinity;
   }
 
-  score(i, j) {
+  #byte(i, j) {
     const row = Math.min(i, j);
-    const byte = this.scores[(row * (2 * this.count - row - 1)) / 2 + Math.max(i, j) - row - 1];
-    return byte === NOT_COMPARED ? null : byte / 254;
+    return this.scores[(row * (2 * this.count - row - 1)) / 2 + Math.max(i, j) - row - 1];
+  }
+
+  /** null: there is none. */
+  score(i, j) {
+    const byte = this.#byte(i, j);
+    return byte > FULL_SCORE ? null : byte / FULL_SCORE;
+  }
+
+  #text(i, j) {
+    const score = this.score(i, j);
+    if (score !== null) return `score ${score.toFixed(2)}`;
+    return this.#byte(i, j) === FAILED ? 'could not be compared' : 'not compared';
   }
 
   draw() {
@@ -128,8 +141,7 @@ export class Matrix {
     const [i, j] = this.#chosen();
     const name = (index) => nameElement(this.data.fragments[index].name, {limit: 48});
     if (i === j) return replace(this.readout, name(i));
-    const score = this.score(i, j);
-    replace(this.readout, name(i), ' \u2013 ', name(j), ': ', score === null ? 'not compared' : `score ${score.toFixed(2)}`);
+    replace(this.readout, name(i), ' \u2013 ', name(j), ': ', this.#text(i, j));
   }
 
   #choose() {

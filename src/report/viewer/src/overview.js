@@ -15,6 +15,7 @@ export function overview(data, choose) {
     [used.length, used.length === 1 ? 'join used' : 'joins used'],
     [data.compared, data.compared === 1 ? 'pair compared' : 'pairs compared'],
   ];
+  if (data.failed > 0) figures.push([data.failed, data.failed === 1 ? 'pair failed' : 'pairs failed']);
   if (data.missing > 0) figures.push([data.missing, data.missing === 1 ? 'pair not compared yet' : 'pairs not compared yet']);
   return h(
     'section',
@@ -43,7 +44,7 @@ function missing(data, choose) {
 }
 
 function best(data, index) {
-  const pair = data.pairs.find(({a, b}) => a === index || b === index);
+  const pair = data.pairs.find(({a, b, failed}) => !failed && (a === index || b === index));
   if (!pair) return '\u2013';
   const other = data.fragments[pair.a === index ? pair.b : pair.a];
   return [percent(pair.score), ' with ', nameElement(other.name, {limit: 24})];
