@@ -87,6 +87,7 @@ class Work {
     }
     for (const Tile& tile : tiles_) progress_.total += tile.pairs();
     progress_.done = done_.size();
+    if (progress_.done == progress_.total) progress_.seconds_left = 0.0;
     done_before_ = done_.size();
     listener_.on_start(forgotten, progress_);
     for (const auto& [copy, first] : copies_) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,10 +24,10 @@ struct Options {
 
 /// How far a run is.
 struct Progress {
-  std::size_t done = 0;     ///< pairs, those of earlier runs included
-  std::size_t total = 0;    ///< pairs of the shard
-  std::size_t failed = 0;   ///< of those done
-  double seconds_left = 0;  ///< estimate, wall clock; 0 while there is nothing to tell by
+  std::size_t done = 0;                ///< pairs, those of earlier runs included
+  std::size_t total = 0;               ///< pairs of the shard
+  std::size_t failed = 0;              ///< of those done
+  std::optional<double> seconds_left;  ///< estimate, wall clock; none while there is nothing to tell by
 };
 
 /// Hears what happens, as it happens, from one thread at a time.

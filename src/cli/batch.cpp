@@ -65,7 +65,7 @@ class BatchCommand final : public Command {
     console.end_progress();
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
     if (json_) {
-      tell_end_as_json(summary);
+      tell_end_as_json(console, summary);
     } else {
       console.result(text_of(summary, seconds.count()));
     }

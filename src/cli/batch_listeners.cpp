@@ -68,7 +68,7 @@ class ConsoleListener final : public WarningListener {
   void on_pair(const store::Pair& pair, const batch::Progress& progress) override {
     WarningListener::on_pair(pair, progress);
     show(fmt::format("{} of {} pairs, {} left", progress.done, progress.total,
-                     duration_text(progress.seconds_left)),
+                     duration_text(progress.seconds_left.value_or(0.0))),
          progress);
   }
 
@@ -80,8 +80,8 @@ class ConsoleListener final : public WarningListener {
 };
 
 /// A file name may be no UTF-8, but JSON must be: such bytes are replaced.  Flushed, for who reads a pipe wants to know now.
-void print_line(const ordered_json& json) {
-  fmt::print("{}\n", json.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
+void print_line(Console& console, const ordered_json& json) {
+  console.result(json.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n");
   std::fflush(stdout);
 }
 
@@ -89,7 +89,8 @@ void add_progress(ordered_json& json, const batch::Progress& progress) {
   json["done"] = progress.done;
   json["total"] = progress.total;
   json["failed"] = progress.failed;
-  json["seconds_left"] = std::round(progress.seconds_left);
+  json["seconds_left"] =
+      progress.seconds_left ? ordered_json(std::round(*progress.seconds_left)) : ordered_json();
 }
 
 class JsonListener final : public WarningListener {
@@ -102,14 +103,14 @@ class JsonListener final : public WarningListener {
         {"event", "start"},
         {"forgotten", {{"all_pairs", forgotten.parameters}, {"fragments", forgotten.fragments}}}};
     add_progress(json, progress);
-    print_line(json);
+    print_line(console_, json);
   }
 
   void on_warning(const std::string& text, const batch::Progress& progress) override {
     WarningListener::on_warning(text, progress);
     ordered_json json = {{"event", "warning"}, {"text", text}};
     add_progress(json, progress);
-    print_line(json);
+    print_line(console_, json);
   }
 
   void on_fragment(const store::Fragment& fragment, const batch::Progress& progress) override {
@@ -122,7 +123,7 @@ class JsonListener final : public WarningListener {
                          {"diameter", fragment.diameter},
                          {"error", bad ? ordered_json(fragment.error) : ordered_json()}};
     add_progress(json, progress);
-    print_line(json);
+    print_line(console_, json);
   }
 
   void on_pair(const store::Pair& pair, const batch::Progress& progress) override {
@@ -134,7 +135,7 @@ class JsonListener final : public WarningListener {
         {"score", pair.score},     {"verdict", failed ? ordered_json() : ordered_json(pair.verdict)},
         {"seconds", pair.seconds}, {"error", failed ? ordered_json(pair.error) : ordered_json()}};
     add_progress(json, progress);
-    print_line(json);
+    print_line(console_, json);
   }
 };
 
@@ -148,14 +149,14 @@ std::unique_ptr<batch::Listener> make_json_listener(Console& console) {
   return std::make_unique<JsonListener>(console);
 }
 
-void tell_end_as_json(const batch::Summary& summary) {
+void tell_end_as_json(Console& console, const batch::Summary& summary) {
   ordered_json bad = ordered_json::array();
   for (const store::Fragment& fragment : summary.bad) bad.push_back(fragment.name);
   ordered_json json = {
       {"event", "end"},       {"fragments", summary.fragments},     {"copies", summary.copies},
       {"bad_fragments", bad}, {"done_before", summary.done_before}, {"interrupted", summary.cancelled}};
   add_progress(json, summary.progress);
-  print_line(json);
+  print_line(console, json);
 }
 
 std::string duration_text(double seconds) {

@@ -70,7 +70,9 @@ std::string usage_line(const CLI::App& app) {
     line = parent->get_name() + " " + line;
   if (!visible_subcommands(app).empty()) return line + " COMMAND [OPTIONS]";
   for (const CLI::Option* option : app.get_options()) {
-    if (option->get_positional()) line += " " + option->get_name(true);
+    if (!option->get_positional()) continue;
+    line += " " + option->get_name(true);
+    if (option->get_items_expected_max() > 1) line += "...";
   }
   return line + " [OPTIONS]";
 }

@@ -305,6 +305,11 @@ TEST_F(Batch, JsonLinesAreValidAndCountUp) {
     EXPECT_EQ(event["total"], 3);
   }
   EXPECT_EQ(done, 3);
+  EXPECT_TRUE(events.front()["seconds_left"].is_null()) << "nothing to tell by yet";
+  EXPECT_EQ(events.back()["seconds_left"], 0);
+  const Finished quiet = run({"batch", scans(), "--out", run_, "--json", "--quiet"});
+  EXPECT_EQ(quiet.exit_code, 0);
+  EXPECT_EQ(quiet.out, "") << "--quiet: no results";
 }
 
 TEST_F(Batch, InterruptKeepsWhatIsDoneAndSaysHowToGoOn) {

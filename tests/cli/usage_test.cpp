@@ -122,6 +122,12 @@ TEST(Help, OfACommandWithinACommandNamesTheProgram) {
   }
 }
 
+TEST(Help, SaysWhereSeveralCanBeGiven) {
+  EXPECT_NE(run({"merge", "--help"}).out.find("Usage: rejoin merge RUN... [OPTIONS]"), std::string::npos);
+  EXPECT_NE(run({"assemble", "--help"}).out.find("Usage: rejoin assemble INPUT [OPTIONS]"),
+            std::string::npos);
+}
+
 TEST(Version, IsTheProjectsVersionOnStdout) {
   const Finished finished = run({"--version"});
   EXPECT_EQ(finished.exit_code, 0);
