@@ -13,6 +13,7 @@
 #include "batch/pace.hpp"
 #include "batch/search_pair.hpp"
 #include "batch/shelf.hpp"
+#include "batch/sizes.hpp"
 #include "batch/table.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -98,6 +99,19 @@ class Work {
     for (const auto& [name, fragment] : fragments_) {
       if (fragment.state == store::FragmentState::Bad) listener_.on_fragment(fragment, progress_);
     }
+    warn_of_sizes();
+  }
+
+  /// Once of each scan, as soon as sizes are known.
+  void warn_of_sizes() {
+    std::vector<store::Fragment> known;
+    for (const auto& [name, fragment] : fragments_) known.push_back(fragment);
+    OddSizes odd = odd_sizes(known);
+    odd.fragments.erase(
+        std::remove_if(odd.fragments.begin(), odd.fragments.end(),
+                       [this](const auto& fragment) { return !doubted_.insert(fragment.name).second; }),
+        odd.fragments.end());
+    if (!odd.fragments.empty()) listener_.on_warning(told(odd), progress_);
   }
 
   /// Name, path and hash of the fragments of this shard, and of their copies.
@@ -139,6 +153,7 @@ class Work {
     wanted.reserve(needed.size());
     for (const std::size_t k : needed) wanted.push_back(fragments_.at(names_[k]));
     shelf_.hold(wanted, context_, [this](const store::Fragment& fragment) { take(fragment); });
+    warn_of_sizes();
     if (progress_.done == done_before_) pace_.start();
     run_side_by_side(pending.size(), [&](std::size_t k) {
       if (!context_.cancelled()) do_pair(pending[k]);
@@ -225,6 +240,7 @@ class Work {
   Shelf shelf_;
   std::map<std::string, store::Fragment> fragments_;
   std::set<std::pair<std::int64_t, std::int64_t>> done_;
+  std::set<std::string> doubted_;  // names of which warn_of_sizes() has told
   std::size_t done_before_ = 0;
   Progress progress_;
   Pace pace_;

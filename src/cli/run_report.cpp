@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "batch/shelf.hpp"
+#include "batch/sizes.hpp"
 #include "cli/assemble_input.hpp"
 #include "cli/json_values.hpp"
 #include "core/error.hpp"
@@ -274,6 +275,8 @@ report::RunReport read_run(const std::filesystem::path& run, std::size_t listed,
   const std::map<std::string, std::string> copies = store::copies(fragments);
   for (const auto& [copy, first] : copies)
     report.warnings.push_back(fmt::format("{0} and {1} are the same scan: {1} is left out", first, copy));
+  const std::string sizes = batch::told(batch::odd_sizes(fragments));
+  if (!sizes.empty()) report.warnings.push_back(sizes);
   for (const store::Fragment& stored : fragments) {
     numbers[stored.name] = report.fragments.size();
     report::ReportFragment fragment;

@@ -266,6 +266,18 @@ TEST_F(Batch, RunKnowsItsScansFromAnyFolderAndKeepsTheirSurfacesWhereTheyAreGone
 #endif
 }
 
+TEST_F(Batch, ScanInMetresAmongMillimetresIsTold) {
+  make_scans(folder_ / "scans");
+  mesh::Mesh metres = match::testing::planted_pair(9, kCells).a;
+  metres.origin *= 0.001;
+  for (glm::vec3& v : metres.vertices) v *= 0.001F;
+  mesh::save(folder_ / "scans/m.ply", metres);
+  const Finished finished = run({"batch", folder_ / "scans", "--out", run_});
+  EXPECT_NE(finished.err.find("m.ply (diameter 0.1"), std::string::npos) << finished.err;
+  EXPECT_NE(finished.err.find("same unit"), std::string::npos) << finished.err;
+  EXPECT_EQ(finished.err.find("a7.ply ("), std::string::npos) << finished.err;
+}
+
 TEST_F(Batch, AssemblyOfAnUnfinishedRunSaysHowManyPairsAreMissing) {
   fs::copy(*home_ / "undisturbed", run_, fs::copy_options::recursive);
   SQLite::Database(run_ + "/run.sqlite", SQLite::OPEN_READWRITE)
