@@ -175,6 +175,35 @@ void draw_boundary(cv::Mat& canvas, const Placed& a, const Placed& b, const View
   }
 }
 
+/// At most 32 characters, cut in the middle: names of pictures differ at their ends.
+std::string short_name(const std::string& name) {
+  constexpr std::size_t kMost = 32;
+  return name.size() <= kMost ? name : name.substr(0, 14) + "..." + name.substr(name.size() - 15);
+}
+
+/// Which number is which piece, in columns of this height.
+cv::Mat legend(const std::vector<Placed>& members, int height) {
+  constexpr int kRow = 18;
+  constexpr double kSize = 0.45;
+  const int rows = std::max(1, (height - kRow / 2) / kRow);
+  const auto text_of = [](const Placed& placed) {
+    return std::to_string(placed.number) + "  " + short_name(placed.piece->name);
+  };
+  int width = 0;
+  for (const Placed& placed : members)
+    width = std::max(
+        width, cv::getTextSize(text_of(placed), cv::FONT_HERSHEY_SIMPLEX, kSize, 1, nullptr).width + 24);
+  const int columns = (static_cast<int>(members.size()) + rows - 1) / rows;
+  cv::Mat panel(height, columns * width, CV_8UC4, cv::Scalar(255, 255, 255, 255));
+  for (std::size_t k = 0; k < members.size(); ++k) {
+    const int column = static_cast<int>(k) / rows;
+    const int row = static_cast<int>(k) % rows;
+    cv::putText(panel, text_of(members[k]), {column * width + 12, (row + 1) * kRow}, cv::FONT_HERSHEY_SIMPLEX,
+                kSize, cv::Scalar(60, 60, 60, 255), 1, cv::LINE_AA);
+  }
+  return panel;
+}
+
 cv::Mat joins_picture(const std::vector<Placed>& members, const std::vector<AssemblyJoin>& joins,
                       const View& view) {
   cv::Mat canvas(view.size, CV_8UC4, cv::Scalar(255, 255, 255, 255));
@@ -198,6 +227,7 @@ cv::Mat joins_picture(const std::vector<Placed>& members, const std::vector<Asse
     cv::putText(canvas, std::to_string(number), middle, cv::FONT_HERSHEY_SIMPLEX, 0.6,
                 cv::Scalar(60, 60, 60, 255), 1, cv::LINE_AA);
   }
+  cv::hconcat(canvas, legend(members, canvas.rows), canvas);
   return canvas;
 }
 

@@ -24,7 +24,8 @@ std::vector<std::uint8_t> assembled_png(const std::vector<Piece>& pieces, const 
 
 /// Writes into a folder, each file whole or not at all:
 /// - object_1.png ..: the pieces of an object in their places, see assembled_png()
-/// - joins_1.png ..: the same pieces in grey with their common boundaries in red and their numbers
+/// - joins_1.png ..: the same pieces in grey with their common boundaries in red and their numbers, and beside them
+///   which number is which piece
 /// \return the files
 /// \throws IoError a picture cannot be read again or a file cannot be written
 std::vector<std::filesystem::path> write_assembly_pictures(const std::filesystem::path& folder,

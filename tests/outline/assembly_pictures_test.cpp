@@ -67,6 +67,28 @@ TEST_F(AssemblyPictures, ShowTheCommonBoundaryInRed) {
   EXPECT_EQ(joins.at<cv::Vec4b>(1, 1), cv::Vec4b(255, 255, 255, 255));
 }
 
+TEST_F(AssemblyPictures, NameEveryNumberBesideThePieces) {
+  std::vector<Piece> pieces = {coloured("a.png", {0, 0, 200}), coloured("b.png", {180, 20, 0})};
+  const auto ink_beside = [&](int from_row, int to_row) {
+    write_assembly_pictures(folder_, pieces, side_by_side());
+    const cv::Mat joins = cv::imread((folder_ / "joins_1.png").string());
+    const int object = 80 + 17;
+    EXPECT_EQ(joins.rows, 30 + 17);
+    if (joins.cols <= object) return 0;
+    cv::Mat grey;
+    cv::cvtColor(joins(cv::Rect(object, from_row, joins.cols - object, to_row - from_row)), grey,
+                 cv::COLOR_BGR2GRAY);
+    return cv::countNonZero(grey < 128);
+  };
+  const int first = ink_beside(0, 22);
+  const int second = ink_beside(22, 47);
+  EXPECT_GT(first, 20);
+  EXPECT_GT(second, 20);
+  pieces[1].name = "a longer name.png";
+  EXPECT_EQ(ink_beside(0, 22), first);
+  EXPECT_GT(ink_beside(22, 47), second + 20);
+}
+
 TEST_F(AssemblyPictures, TellThatAPieceIsGone) {
   const std::vector<Piece> pieces = {coloured("a.png", {0, 0, 200}), coloured("b.png", {180, 20, 0})};
   fs::remove(pieces[1].path);
