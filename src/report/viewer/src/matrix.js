@@ -61,9 +61,9 @@ export class Matrix {
   draw() {
     const style = getComputedStyle(this.element);
     const room = this.canvas.parentElement.clientWidth;
-    const labelled = this.count <= LABELLED && room > 520;
-    this.margin = labelled ? 132 : 0;
-    this.cell = Math.max(3, Math.min(28, Math.floor((Math.min(room, 1100) - this.margin) / Math.max(1, this.count))));
+    const labelled = this.count <= LABELLED;
+    this.margin = !labelled ? 0 : room > 520 ? 132 : 96;
+    this.cell = Math.max(labelled ? 12 : 3, Math.min(28, Math.floor((Math.min(room, 1100) - this.margin) / Math.max(1, this.count))));
     const side = this.margin + this.cell * this.count;
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
     Object.assign(this.canvas, {width: side * ratio, height: side * ratio});
@@ -140,8 +140,10 @@ export class Matrix {
   #tell() {
     const [i, j] = this.#chosen();
     const name = (index) => nameElement(this.data.fragments[index].name, {limit: 48});
+    this.canvas.title = tidy(this.data.fragments[i].name);
     if (i === j) return replace(this.readout, name(i));
     replace(this.readout, name(i), ' \u2013 ', name(j), ': ', this.#text(i, j));
+    this.canvas.title = this.readout.textContent;
   }
 
   #choose() {

@@ -55,7 +55,7 @@ function objects(data, groups, choose) {
   const rows = [...groups].sort((a, b) => a - b).map((group) => {
     const members = [...data.fragments.keys()].filter((index) => data.fragments[index].pose && data.fragments[index].group === group);
     const sure = members.map((index) => data.fragments[index].confidence).filter((value) => value !== null);
-    return h('tr', {}, h('th', {scope: 'row'}, group + 1), h('td', {class: 'number'}, members.length), h('td', {class: 'number'}, sure.length ? percent(Math.min(...sure)) : '\u2013'), h('td', {class: 'members'}, members.map((index, k) => [k > 0 && ', ', button(data, index, choose, 24)])));
+    return h('tr', {}, h('th', {scope: 'row'}, group + 1), h('td', {class: 'number'}, members.length), h('td', {class: 'number'}, sure.length ? percent(Math.min(...sure)) : '\u2013'), h('td', {class: 'members'}, members.map((index, k) => [k > 0 && ' ', h('span', {class: 'member'}, button(data, index, choose, 24), k + 1 < members.length && ',')])));
   });
   return h('div', {class: 'objects'}, h('h3', {}, 'Objects'), h('div', {class: 'scroll', tabindex: 0, role: 'region', 'aria-label': 'Objects'}, h('table', {}, h('thead', {}, h('tr', {}, h('th', {scope: 'col'}, 'object'), h('th', {scope: 'col'}, 'pieces'), h('th', {scope: 'col'}, 'least confidence'), h('th', {scope: 'col'}, 'fragments'))), h('tbody', {}, rows))));
 }

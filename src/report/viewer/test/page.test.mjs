@@ -183,6 +183,45 @@ test('a phone shows it without scrolling sideways', () =>
     {width: 390, height: 844},
   ));
 
+test('a phone shows names whole, and their commas beside them', () =>
+  on(
+    'sixty',
+    async (page) => {
+      const shown = await page.evaluate(() => {
+        const lines = (element) => Math.round(element.getBoundingClientRect().height / parseFloat(getComputedStyle(element).lineHeight));
+        return {
+          names: [...document.querySelectorAll('.members .member')].map((member) => [lines(member), member.textContent]),
+          room: document.querySelector('.members').clientWidth,
+          links: [...document.querySelectorAll('.top nav a')].map(lines),
+        };
+      });
+      assert.equal(shown.names.length, 60);
+      shown.names.forEach(([lines, text], k) => assert.deepEqual([lines, text], [1, `ball ${k}${k < 59 ? ',' : ''}`]));
+      assert.ok(shown.room > 320, `${shown.room}`);
+      assert.ok(shown.links.every((count) => count === 1));
+    },
+    {width: 390, height: 844},
+  ));
+
+test('the matrix of a phone names its rows and columns', () =>
+  on(
+    'hostile',
+    async (page) => {
+      const {at} = await pixels(page, '#matrix canvas');
+      const ground = at(2, 2);
+      const ink = (left, top, width, height) => {
+        let count = 0;
+        for (let x = left; x < left + width; ++x) for (let y = top; y < top + height; ++y) count += at(x, y).some((c, k) => Math.abs(c - ground[k]) > 60) ? 1 : 0;
+        return count;
+      };
+      for (let k = 0; k < 4; ++k) {
+        assert.ok(ink(0, 98 + 28 * k, 90, 24) > 20, `row ${k}`);
+        assert.ok(ink(98 + 28 * k, 0, 24, 90) > 20, `column ${k}`);
+      }
+    },
+    {width: 390, height: 844},
+  ));
+
 test('dark and light differ, and both keep their text legible', () =>
   on('hostile', async (page) => {
     const contrast = () =>
