@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/words.hpp"
 #include "report/canvas.hpp"
 #include "report/renderer.hpp"
 
@@ -89,7 +90,7 @@ Image assembly_picture(const std::vector<PlacedFragment>& fragments) {
   Image image(kViews * kView + kLegend, kTitle + static_cast<int>(rows.size()) * kView, kPaper);
   TextStyle title;
   title.bold = true;
-  draw_text(image, 16, 28, fmt::format("{} fragments assembled", fragments.size()), title);
+  draw_text(image, 16, 28, counted(fragments.size(), "fragment") + " assembled", title);
   for (std::size_t r = 0; r < rows.size(); ++r)
     draw_row(image, fragments, rows[r], kTitle + static_cast<int>(r) * kView);
   return image;

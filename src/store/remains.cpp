@@ -5,11 +5,14 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/words.hpp"
+
 namespace rejoin::store {
 namespace {
 
 std::string not_compared(std::size_t missing, const char* of, std::size_t all) {
-  return fmt::format("{} of {}{} pairs {} not compared yet", missing, of, all, missing == 1 ? "is" : "are");
+  return fmt::format("{} of {}{} {} not compared yet", missing, of, counted(all, "pair"),
+                     missing == 1 ? "is" : "are");
 }
 
 }  // namespace
