@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "match/units.hpp"
+
 namespace rejoin::batch {
 
 OddSizes odd_sizes(const std::vector<store::Fragment>& fragments) {
@@ -16,8 +18,7 @@ OddSizes odd_sizes(const std::vector<store::Fragment>& fragments) {
   OddSizes odd{*middle, {}};
   for (const store::Fragment& fragment : fragments) {
     if (fragment.state != store::FragmentState::Ready) continue;
-    if (fragment.diameter * kOddRatio < odd.median || fragment.diameter > kOddRatio * odd.median)
-      odd.fragments.push_back(fragment);
+    if (match::units_differ(fragment.diameter, odd.median)) odd.fragments.push_back(fragment);
   }
   return odd;
 }

@@ -8,12 +8,9 @@
 
 namespace rejoin::batch {
 
-/// Sizes that differ by more are doubted: metres and millimetres are 1,000 apart, the sherds of a pot rarely 50.
-inline constexpr double kOddRatio = 100.0;
-
 struct OddSizes {
   double median = 0;                       ///< diameter of all that are ready, mesh units
-  std::vector<store::Fragment> fragments;  ///< more than kOddRatio times larger or smaller than that
+  std::vector<store::Fragment> fragments;  ///< of which match::units_differ() from that
 };
 
 /// Looks at those that are ready.
