@@ -67,7 +67,7 @@ std::vector<HelpGroup> help_groups(const CLI::App& app) {
 std::string usage_line(const CLI::App& app) {
   std::string line = app.get_name();
   for (const CLI::App* parent = app.get_parent(); parent; parent = parent->get_parent())
-    line = parent->get_name() + " " + line;
+    line.insert(0, parent->get_name() + " ");
   if (!visible_subcommands(app).empty()) return line + " COMMAND [OPTIONS]";
   for (const CLI::Option* option : app.get_options()) {
     if (!option->get_positional()) continue;
