@@ -56,7 +56,7 @@ struct Summary {
 /// content (but for seconds), whatever the number of threads and however often it was stopped.
 ///
 /// A scan that cannot be used, or a pair that fails, is marked and the rest goes on.  A file with the content of another has no pairs: the
-/// first by name stands for both.
+/// one with the shorter name stands for both.
 ///
 /// \param inputs  folder of scans
 /// \param output  folder of the run, made if it is not there: run.sqlite, fragments/, pairs.csv

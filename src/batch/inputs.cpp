@@ -12,6 +12,7 @@
 #include <memory>
 
 #include "core/error.hpp"
+#include "core/words.hpp"
 
 namespace rejoin::batch {
 namespace fs = std::filesystem;
@@ -78,8 +79,9 @@ std::map<std::string, std::string> find_copies(const fs::path& folder,
     if (!problem) of_size[size].push_back(name);
   }
   std::map<std::string, std::string> copies;
-  for (const auto& [size, same_size] : of_size) {
+  for (auto& [size, same_size] : of_size) {
     if (same_size.size() < 2) continue;
+    std::sort(same_size.begin(), same_size.end(), stands_for_both);
     std::map<std::string, std::string> first;  // by hash
     for (const std::string& name : same_size) {
       try {

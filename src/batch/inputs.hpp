@@ -17,7 +17,7 @@ std::vector<std::string> find_scans(const std::filesystem::path& folder);
 /// \throws IoError the file cannot be read
 std::string content_hash(const std::filesystem::path& path);
 
-/// Files that have the content of one before them in the list, with that one's name.  Only files of equal size are read; one that cannot
+/// Files that have the content of another, with the name of the one that stands for both (stands_for_both()).  Only files of equal size are read; one that cannot
 /// be read is no copy.
 /// \param names  as find_scans() gives them
 std::map<std::string, std::string> find_copies(const std::filesystem::path& folder,

@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "core/error.hpp"
+#include "core/words.hpp"
 #include "outline/detail/readers.hpp"
 #include "outline/polygon.hpp"
 
@@ -82,7 +83,7 @@ void take_out_repeats(PieceSet& set) {
       kept.push_back(std::move(piece));
       continue;
     }
-    const bool better = piece.name.size() < first->name.size();
+    const bool better = stands_for_both(piece.name, first->name);
     const std::string stays = better ? piece.name : first->name;
     const std::string goes = better ? first->name : piece.name;
     const char* what = kind_of(piece.path) == Kind::Picture ? "picture" : "outline";

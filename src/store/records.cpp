@@ -1,6 +1,6 @@
 #include "store/records.hpp"
 
-#include <algorithm>
+#include "core/words.hpp"
 
 namespace rejoin::store {
 
@@ -8,7 +8,7 @@ std::map<std::string, std::string> copies(const std::vector<Fragment>& fragments
   std::map<std::string, std::string> first;  // by hash
   for (const Fragment& fragment : fragments) {
     std::string& name = first.try_emplace(fragment.hash, fragment.name).first->second;
-    name = std::min(name, fragment.name);
+    if (stands_for_both(fragment.name, name)) name = fragment.name;
   }
   std::map<std::string, std::string> result;
   for (const Fragment& fragment : fragments) {

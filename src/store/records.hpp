@@ -42,7 +42,7 @@ struct Fragment {
   bool operator==(const Fragment&) const = default;
 };
 
-/// Fragments whose file has the content of another, with the name of the one that stands for both: the first by name.  Copies have no
+/// Fragments whose file has the content of another, with the name of the one that stands for both (stands_for_both()).  Copies have no
 /// pairs.
 std::map<std::string, std::string> copies(const std::vector<Fragment>& fragments);
 

@@ -53,14 +53,15 @@ TEST_F(Inputs, HashTellsContentNotName) {
   EXPECT_THROW(content_hash(folder_ / "nowhere"), IoError);
 }
 
-TEST_F(Inputs, CopiesAreFoundByContentAndTheFirstNameStandsForAll) {
-  put("a.ply", "one");
+TEST_F(Inputs, CopiesAreFoundByContentAndTheShortestNameStandsForAll) {
+  put("Copy of c.ply", "one");
   put("b.ply", "two");  // as long as the others
   put("c.ply", "one");
   put("d.ply", "one more");
   put("e.ply", "one");
-  const std::map<std::string, std::string> expected{{"c.ply", "a.ply"}, {"e.ply", "a.ply"}};
-  EXPECT_EQ(find_copies(folder_, {"a.ply", "b.ply", "c.ply", "d.ply", "e.ply", "gone.ply"}), expected);
+  const std::map<std::string, std::string> expected{{"Copy of c.ply", "c.ply"}, {"e.ply", "c.ply"}};
+  EXPECT_EQ(find_copies(folder_, {"Copy of c.ply", "b.ply", "c.ply", "d.ply", "e.ply", "gone.ply"}),
+            expected);
 }
 
 }  // namespace

@@ -123,10 +123,12 @@ TEST_F(RunTest, ChangedFragmentLosesItsPairsAlone) {
 TEST_F(RunTest, CopyOfAnotherHasNoPairs) {
   make_run();  // with the pair of a.ply and b.ply
   std::vector<Fragment> list = three_;
-  list.push_back(fragment("aa.ply", "22"));  // the content of b.ply
+  list.push_back(fragment("A.ply", "22"));  // the content of b.ply
+  list.push_back(fragment("Copy of c.ply", "33"));
   list.push_back(fragment("d.ply", kUnreadable));
   list.push_back(fragment("e.ply", kUnreadable));
-  EXPECT_EQ(copies(list), (std::map<std::string, std::string>{{"b.ply", "aa.ply"}}));
+  EXPECT_EQ(copies(list),
+            (std::map<std::string, std::string>{{"b.ply", "A.ply"}, {"Copy of c.ply", "c.ply"}}));
   store::Run run = store::Run::write(folder_);
   run.save(pair_of(run.fragments(), 0, 2), {});
   run.begin(kParameters, list);

@@ -31,9 +31,8 @@ std::array<double, 7> figures(const Candidate& c) {
 
 void remove_pairs_of_copies(SQLite::Database& database) {
   const std::string copies = fmt::format(
-      "SELECT name FROM (SELECT name, min(name) OVER (PARTITION BY hash) AS stands FROM fragment WHERE hash "
-      "<> '{}') "
-      "WHERE name <> stands",
+      "SELECT name FROM (SELECT name, first_value(name) OVER (PARTITION BY hash ORDER BY length(CAST(name AS "
+      "BLOB)), name) AS stands FROM fragment WHERE hash <> '{}') WHERE name <> stands",
       kUnreadable);
   database.exec(
       fmt::format("DELETE FROM pair WHERE a IN (SELECT id FROM fragment WHERE name IN ({0})) "
