@@ -103,7 +103,12 @@ void draw_curve(Image& image, const View& view, const Polygon& curve, const outl
     draw_line(image, view(pose(curve[i])), view(pose(curve[i + 1])), colour, 3);
 }
 
-/// Curvature of an open run of points; B's is measured backwards, so that true partners are equal.
+/// The length to go along B from where the boundary begins on it: backwards, or forwards where B lies upside down.
+double way_on_b(const outline::JoinCandidate& join) {
+  return join.pose.flipped ? join.boundary.length : -join.boundary.length;
+}
+
+/// Curvature of an open run of points, of the border as it is passed forwards.
 std::vector<double> curvature_along(const Polygon& border, double begin, double length) {
   const double step = length / static_cast<double>(kSamples - 1);
   const auto count =
@@ -116,8 +121,7 @@ std::vector<double> curvature_along(const Polygon& border, double begin, double 
   for (std::size_t i = 0; i < kSamples; ++i) {
     const auto at = static_cast<long long>(std::llround((begin + step * static_cast<double>(i)) / own));
     const auto size = static_cast<long long>(count);
-    const double bend = bends[static_cast<std::size_t>(((at % size) + size) % size)];
-    result.push_back(length < 0.0 ? -bend : bend);
+    result.push_back(bends[static_cast<std::size_t>(((at % size) + size) % size)]);
   }
   return result;
 }
@@ -131,10 +135,12 @@ void draw_plot(Image& image, const Area& area, const std::vector<double>& values
 }
 
 void draw_curvatures(Image& image, const outline::Outline& a, const outline::Outline& b,
-                     const outline::Boundary& boundary) {
+                     const outline::JoinCandidate& best) {
+  const outline::Boundary& boundary = best.boundary;
   const Area area{60, kTop + kPanel + 44, kWidth - 100, kPlotHeight - 84};
   const std::vector<double> on_a = curvature_along(a.points, boundary.begin_a, boundary.length);
-  const std::vector<double> on_b = curvature_along(b.points, boundary.begin_b, -boundary.length);
+  std::vector<double> on_b = curvature_along(b.points, boundary.begin_b, way_on_b(best));
+  for (double& bend : on_b) bend = -bend;  // passed backwards, or turned over: true partners are equal
   std::vector<double> sizes;
   sizes.reserve(on_a.size() + on_b.size());
   for (const double v : on_a) sizes.push_back(std::abs(v));
@@ -147,7 +153,10 @@ void draw_curvatures(Image& image, const outline::Outline& a, const outline::Out
   draw_plot(image, area, on_a, top, kMark);
   draw_plot(image, area, on_b, top, kMarkB);
   draw_text(image, area.x, area.y - 10, "curvature along the common boundary, A", {13, kMark});
-  draw_text(image, area.x + 470, area.y - 10, "B, backwards with its sign changed", {13, kMarkB});
+  draw_text(
+      image, area.x + 470, area.y - 10,
+      best.pose.flipped ? "B, upside down, with its sign changed" : "B, backwards with its sign changed",
+      {13, kMarkB});
   draw_text(image, area.x, area.y + area.height + 22, "0", {12});
   draw_text(image, area.x + area.width, area.y + area.height + 22, short_number(boundary.length),
             {12, kInk, Align::Right});
@@ -159,7 +168,7 @@ void draw_joined(Image& image, const outline::Piece& a, const outline::Piece& b,
   draw_piece(image, joined, a.outline, {}, kFillA);
   draw_piece(image, joined, b.outline, best.pose, kFillB);
   const Polygon on_a = stretch(a.outline.points, best.boundary.begin_a, best.boundary.length, kSamples);
-  const Polygon on_b = stretch(b.outline.points, best.boundary.begin_b, -best.boundary.length, kSamples);
+  const Polygon on_b = stretch(b.outline.points, best.boundary.begin_b, way_on_b(best), kSamples);
   const auto [view_a, view_b] = views_apart(a, b);
   draw_curve(image, view_a, on_a, {}, kMark);
   draw_curve(image, view_b, on_b, {}, kMarkB);
@@ -185,7 +194,7 @@ std::vector<std::filesystem::path> write_outline_match_pictures(const std::files
   if (!result.candidates.empty()) {
     const outline::JoinCandidate& best = result.candidates.front();
     draw_joined(image, a, b, best, verdict);
-    draw_curvatures(image, a.outline, b.outline, best.boundary);
+    draw_curvatures(image, a.outline, b.outline, best);
     const std::vector<std::uint8_t> bytes = outline::assembled_png({a, b}, {{}, best.pose});
     rejoin::write_file(folder / "joined.png", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   }

@@ -13,12 +13,17 @@ outline::Piece rectangle(const char* name, double width, double height) {
   return {name, "", {{{0, 0}, {width, 0}, {width, height}, {0, height}}, {}, {}}};
 }
 
+/// The small piece lies with its side of 60, the first of its border, on the large one's last but one.
+outline::JoinCandidate upright() {
+  outline::JoinCandidate join;
+  join.pose.translation = {100.0, 200.0};
+  join.score = 0.009;
+  join.boundary = {640.0, 60.0, 60.0};
+  return join;
+}
+
 /// match.png of a piece of 300 x 200 and one of 60 x 80 that meet along 60.
-cv::Mat drawn(const std::string& verdict) {
-  outline::JoinCandidate best;
-  best.pose.translation = {100.0, 200.0};
-  best.score = 0.009;
-  best.boundary = {540.0, 60.0, 60.0};
+cv::Mat drawn(const std::string& verdict, const outline::JoinCandidate& best = upright()) {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / "rejoin_outline_match_pictures";
   std::filesystem::create_directories(folder);
@@ -46,6 +51,16 @@ TEST(OutlineMatchPictures, BothPiecesAreDrawnAtOneScale) {
   const int small = width_of(image, 1, {226, 203, 178});
   EXPECT_GT(large, 300);
   EXPECT_NEAR(small, large / 5.0, 5.0);  // the edges' lines
+}
+
+TEST(OutlineMatchPictures, TheBoundaryOfAPieceUpsideDownIsMarkedWhereItIs) {
+  outline::JoinCandidate turned_over = upright();
+  turned_over.pose = {3.14159265358979, {160.0, 200.0}, true};
+  turned_over.boundary.begin_b = 0.0;  // the side's other end
+  const cv::Vec3b mark{178, 92, 40};
+  const int marked = width_of(drawn("join"), 1, mark);
+  EXPECT_GT(marked, 60);
+  EXPECT_NEAR(width_of(drawn("join", turned_over), 1, mark), marked, 2);
 }
 
 TEST(OutlineMatchPictures, TheTitleIsTheVerdict) {
