@@ -26,7 +26,7 @@ struct PieceSet {
 /// Pieces of one file, by its name's ending:
 /// - png, jpg, jpeg, tif, tiff: pictures, see extract()
 /// - csv, txt: one outline, a point "x,y" a line (comma, semicolon, tab or blanks; a first line of words is skipped);
-///   "1,5;2,5" has decimal commas
+///   "1,5;2,5" and "1,5 2,5" have decimal commas
 /// - svg: each closed subpath of paths, polygons and rectangles is a border, one inside another a hole; curves are
 ///   flattened, transforms applied
 /// - geojson, json: each Polygon and each part of a MultiPolygon is a piece, with its holes

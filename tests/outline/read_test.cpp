@@ -122,6 +122,15 @@ TEST_F(Read, CsvWithSemicolonsMayHaveDecimalCommas) {
   EXPECT_DOUBLE_EQ(only_area(read_pieces(write("c.csv", "0,0\n1,0\n1,1\n0,1\n"))), 1.0);
 }
 
+TEST_F(Read, CsvWithBlanksOrTabsMayHaveDecimalCommas) {
+  EXPECT_DOUBLE_EQ(
+      only_area(read_pieces(write("a.txt", "0,5\t0,5\r\n10,5\t0,5\r\n10,5\t10,5\r\n0,5\t10,5\r\n"))), 100.0);
+  EXPECT_DOUBLE_EQ(only_area(read_pieces(write("b.txt", "0 0\n2,5 0\n2,5 2\n0 2\n"))), 5.0);
+  // Commas that part the columns, with blanks beside or behind them, are no decimal ones.
+  EXPECT_DOUBLE_EQ(only_area(read_pieces(write("c.csv", "0, 0\n1, 0 \n1 ,1\n0,1 \n"))), 1.0);
+  EXPECT_DOUBLE_EQ(only_area(read_pieces(write("d.csv", "0,\t0\n3,\t0\n3,\t1\n0,\t1\t\n"))), 3.0);
+}
+
 TEST_F(Read, CsvWhoseCommasMayMeanTwoThingsIsRefusedWithTheLine) {
   expect_refusal("a.csv", "0,5;0,5\n1,2,3;4\n", "line 2 has semicolons and commas");
   expect_refusal("b.csv", "0;0\n1, 2;3\n", "line 2 has semicolons and commas");

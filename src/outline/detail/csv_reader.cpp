@@ -26,18 +26,22 @@ std::optional<double> take_number(std::string_view& line) {
   return value;
 }
 
-/// A line of a table whose numbers have decimal commas, with points in their place: a semicolon parts the columns, so a
-/// comma between two digits that is the only one of its column is no separator.
+/// A line of a table whose numbers have decimal commas, with points in their place: a semicolon, or else blanks and tabs
+/// between numbers, part the columns, so a comma between two digits that is the only one of its column is no separator.
 /// \return nullopt: semicolons and commas are both there, and what the commas mean is open
 std::optional<std::string> with_points(std::string_view line) {
-  std::string text(line);
-  if (line.find(';') == std::string_view::npos || line.find(',') == std::string_view::npos) return text;
+  std::string text(line.substr(0, line.find_last_not_of(" \t\r") + 1));
+  const bool semicolons = text.find(';') != std::string::npos;
+  const std::string_view parting = semicolons ? ";" : " \t";
+  if (text.find(',') == std::string::npos || text.find_first_of(parting) == std::string::npos) return text;
+  const std::string given = text;
   const auto digit = [&](std::size_t i) { return i < text.size() && text[i] >= '0' && text[i] <= '9'; };
   std::size_t commas = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == ';') commas = 0;
+    if (parting.find(text[i]) != std::string_view::npos) commas = 0;
     if (text[i] != ',') continue;
-    if (++commas > 1 || i == 0 || !digit(i - 1) || !digit(i + 1)) return std::nullopt;
+    if (++commas > 1 || i == 0 || !digit(i - 1) || !digit(i + 1))
+      return semicolons ? std::nullopt : std::optional(given);
     text[i] = '.';
   }
   return text;
