@@ -125,15 +125,26 @@ TEST_F(Read, CsvWithSemicolonsMayHaveDecimalCommas) {
 TEST_F(Read, CsvWithBlanksOrTabsMayHaveDecimalCommas) {
   EXPECT_DOUBLE_EQ(
       only_area(read_pieces(write("a.txt", "0,5\t0,5\r\n10,5\t0,5\r\n10,5\t10,5\r\n0,5\t10,5\r\n"))), 100.0);
-  EXPECT_DOUBLE_EQ(only_area(read_pieces(write("b.txt", "0 0\n2,5 0\n2,5 2\n0 2\n"))), 5.0);
-  // Commas that part the columns, with blanks beside or behind them, are no decimal ones.
-  EXPECT_DOUBLE_EQ(only_area(read_pieces(write("c.csv", "0, 0\n1, 0 \n1 ,1\n0,1 \n"))), 1.0);
-  EXPECT_DOUBLE_EQ(only_area(read_pieces(write("d.csv", "0,\t0\n3,\t0\n3,\t1\n0,\t1\t\n"))), 3.0);
+  EXPECT_DOUBLE_EQ(only_area(read_pieces(write("b.txt", "0 0\n2,5 0\n2,5 2,5\n0 2,5\n"))), 6.25);
+  expect_refusal("c.txt", "0,5 0,5\n3,5 0,5\n3,5,2\n", "line 3 has commas");
+  expect_refusal("d.txt", "0,5 0,5\n3,5\n3,5 2,5\n", "line 2 is no point");
+}
+
+TEST_F(Read, CsvWhoseCommasPartColumnsMayHaveBlanksAroundThem) {
+  EXPECT_DOUBLE_EQ(only_area(read_pieces(write("a.csv", "  0, 0\n1, 0 \n1 ,1\n  0,1 \n"))), 1.0);
+  EXPECT_DOUBLE_EQ(only_area(read_pieces(write("b.csv", "0,\t0\n3,\t0\n3,\t1\n0,\t1\t\n"))), 3.0);
+  EXPECT_DOUBLE_EQ(only_area(read_pieces(write("c.csv", "0,0 1\n50,0 2\n50,2 3\n0,2 4\n"))), 100.0)
+      << "a number each";
+  EXPECT_DOUBLE_EQ(only_area(read_pieces(write("d.csv", "0,0;\n4,0;\n4,2;\n0,2;\n"))), 8.0);
+}
+
+TEST_F(Read, CsvLosesNoFirstLineThatIsNoPoint) {
+  expect_refusal("a.csv", "0,one\n4,0\n4,2\n0,2\n", "line 1 is no point");
 }
 
 TEST_F(Read, CsvWhoseCommasMayMeanTwoThingsIsRefusedWithTheLine) {
-  expect_refusal("a.csv", "0,5;0,5\n1,2,3;4\n", "line 2 has semicolons and commas");
-  expect_refusal("b.csv", "0;0\n1, 2;3\n", "line 2 has semicolons and commas");
+  expect_refusal("a.csv", "0,5;0,5\n1,2,3;4\n", "line 2 has commas that may be decimal ones");
+  expect_refusal("b.csv", "0;0\n1, 2;3\n", "line 2 has commas that may be decimal ones");
 }
 
 TEST_F(Read, FolderIsReadInTheOrderOfNames) {
