@@ -22,9 +22,11 @@ std::optional<double> parse_number(const std::string& text) {
   return value;
 }
 
+/// Digits after at most a sign, without a nought before them: CLI11 would take 010 for 8.
 bool is_whole(const std::string& text) {
-  const bool sign = !text.empty() && (text[0] == '-' || text[0] == '+');
-  return text.find_first_not_of("0123456789", sign ? 1 : 0) == std::string::npos;
+  const std::size_t digits = !text.empty() && (text[0] == '-' || text[0] == '+') ? 1 : 0;
+  if (text.size() > digits + 1 && text[digits] == '0') return false;
+  return text.find_first_not_of("0123456789", digits) == std::string::npos;
 }
 
 std::vector<std::string> split(const std::string& text) {
@@ -74,7 +76,7 @@ CLI::Option* add_seed(CLI::App& app, std::uint64_t& seed, const std::string& des
     std::uint64_t value = 0;
     const char* end = text.data() + text.size();
     const auto [stopped, problem] = std::from_chars(text.data(), end, value);
-    if (problem == std::errc() && stopped == end) return std::string();
+    if (problem == std::errc() && stopped == end && is_whole(text)) return std::string();
     return fmt::format("'{}' is no whole number from 0 to {}", text,
                        std::numeric_limits<std::uint64_t>::max());
   };

@@ -132,8 +132,8 @@ class MatchCommand final : public Command {
     if (options.search == match::Search::Esa) {
       throw UsageError("--propose rims", "goes with --search sweep", "leave out one of the two");
     }
-    if (options.constraint == match::Constraint::Direction || !options.facets_a.empty() ||
-        !options.facets_b.empty()) {
+    if (options.constraint == match::Constraint::Direction || !options.directions_a.empty() ||
+        !options.directions_b.empty() || !options.facets_a.empty() || !options.facets_b.empty()) {
       throw UsageError("--propose rims", "takes no directions or facets", "leave out one of the two");
     }
   }
