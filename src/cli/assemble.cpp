@@ -8,6 +8,7 @@
 #include <system_error>
 #include <vector>
 
+#include "batch/inputs.hpp"
 #include "cli/assemble_constraints.hpp"
 #include "cli/assemble_files.hpp"
 #include "cli/assemble_input.hpp"
@@ -90,7 +91,8 @@ class AssembleCommand final : public Command {
 
   /// Matching a folder of scans takes long: what comes of it must have a place.
   void require_outputs() const {
-    if (!json_ && !out_ && std::filesystem::is_directory(input_) && !is_run(input_)) {
+    if (!is_run(input_)) static_cast<void>(batch::find_scans(input_));  // refuses what is no folder of scans
+    if (!json_ && !out_ && !is_run(input_)) {
       throw UsageError(input_, "is no run, so nothing would be kept of its assembly",
                        "add --out DIR for all of it, or --json FILE for the poses alone");
     }

@@ -13,13 +13,13 @@ namespace rejoin::cli {
 /// Numbers in braces, as in assembly::Placement::reason, replaced by names.
 std::string with_names(const std::string& text, const std::vector<std::string>& names);
 
-/// "rejoin.assembly/1".
 /// Why a fragment is placed nowhere, and how many of its pairs were not there to tell.
 std::string reason_of(const AssembleInput& input, const assembly::Result& result, std::size_t fragment);
 
 /// What the user should know of the whole: pairs that are not compared yet, constraints that could not be kept.
 std::vector<std::string> warnings_of(const AssembleInput& input, const assembly::Result& result);
 
+/// "rejoin.assembly/1".
 std::string assembly_json(const AssembleInput& input, const assembly::Result& result);
 
 /// A MeshLab project of the scans' files at their poses.
