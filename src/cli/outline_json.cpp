@@ -94,6 +94,10 @@ std::string assembly_json(const outline::PieceSet& set, const outline::Assembly&
   for (const std::size_t piece : assembly.unplaced) unplaced.push_back(pieces[piece].name);
   ordered_json untried = ordered_json::array();
   for (const std::size_t piece : assembly.untried) untried.push_back(pieces[piece].name);
+  // All that have no place, whatever the reason; the lists after it tell that.
+  unplaced.insert(unplaced.end(), untried.begin(), untried.end());
+  for (const auto* left_out : {&set.unusable, &set.repeated})
+    for (const outline::LeftOut& piece : *left_out) unplaced.push_back(piece.name);
   const ordered_json json = {
       {"schema", "rejoin.assembly/1"},
       {"fragments", fragments},
