@@ -7,6 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "core/ascii.hpp"
 #include "core/files.hpp"
 #include "outline/contact.hpp"
 #include "outline/detail/image_file.hpp"
@@ -175,9 +176,10 @@ void draw_boundary(cv::Mat& canvas, const Placed& a, const Placed& b, const View
   }
 }
 
-/// At most 32 characters, cut in the middle: names of pictures differ at their ends.
-std::string short_name(const std::string& name) {
+/// At most 32 letters that the font has, cut in the middle: names of pictures differ at their ends.
+std::string short_name(const std::string& full) {
   constexpr std::size_t kMost = 32;
+  const std::string name = ascii(full);
   return name.size() <= kMost ? name : name.substr(0, 14) + "..." + name.substr(name.size() - 15);
 }
 
