@@ -88,7 +88,8 @@ struct Piece {
   Outline outline;
 };
 
-/// Two stretches of two borders that lie along each other: begin_a forward along A, begin_b backward along B.
+/// Two stretches of two borders that lie along each other: begin_a forward along A, begin_b backward along B
+/// (forward where the pose is flipped).
 struct Boundary {
   double begin_a =
       0.0;  ///< arc length from A's first point to where the stretch begins, file units, 0 <= begin_a < perimeter

@@ -22,7 +22,8 @@ struct PageData {
 /// Bytes that are no UTF-8 become U+FFFD; numbers that do not exist become null.
 std::string page_json(const PageData& data);
 
-/// Scores of all pairs as bytes, row after row above the diagonal: 0 .. 254 for score 0 .. 1, 255 = not compared.
+/// Scores of all pairs as bytes, row after row above the diagonal: 0 .. 253 for score 0 .. 1, 254 = failed, 255 = not
+/// compared.
 std::vector<std::uint8_t> score_triangle(const RunReport& report);
 
 }  // namespace rejoin::report::detail
