@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 
+#include "core/components.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/random.hpp"
@@ -196,32 +196,20 @@ glm::dmat3 random_rotation(Random& random) {
   return tilt * axis_rotation({0, 0, 1}, random.uniform(0.0, 6.283185307179586));
 }
 
-std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t v) {
-  while (parent[v] != v) {
-    parent[v] = parent[parent[v]];
-    v = parent[v];
-  }
-  return v;
-}
-
 /// The connected part with the most faces.
 mesh::Mesh largest_part(const mesh::Mesh& mesh) {
-  std::vector<std::uint32_t> parent(mesh.vertices.size());
-  std::iota(parent.begin(), parent.end(), 0U);
+  Components components(mesh.vertices.size());
   for (const glm::uvec3& face : mesh.faces) {
-    for (int k = 0; k < 2; ++k) {
-      const std::uint32_t a = root_of(parent, face[k]);
-      const std::uint32_t b = root_of(parent, face[k + 1]);
-      parent[std::max(a, b)] = std::min(a, b);
-    }
+    components.unite(face.x, face.y);
+    components.unite(face.y, face.z);
   }
   std::map<std::uint32_t, std::size_t> faces_of;
-  for (const glm::uvec3& face : mesh.faces) ++faces_of[root_of(parent, face.x)];
+  for (const glm::uvec3& face : mesh.faces) ++faces_of[components.of(face.x)];
   const auto largest = std::max_element(faces_of.begin(), faces_of.end(),
                                         [](const auto& a, const auto& b) { return a.second < b.second; });
   std::vector<std::uint32_t> kept;
   for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
-    if (root_of(parent, mesh.faces[f].x) == largest->first) kept.push_back(f);
+    if (components.of(mesh.faces[f].x) == largest->first) kept.push_back(f);
   }
   return mesh::submesh(mesh, kept);
 }

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <utility>
 #include <vector>
+
+#include "core/components.hpp"
 
 namespace rejoin::mesh::detail {
 namespace {
@@ -29,21 +30,12 @@ struct Part {
   }
 };
 
-std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t v) {
-  while (parent[v] != v) v = parent[v] = parent[parent[v]];
-  return v;
-}
-
 /// Number of the part of every face, from 0 in the order of their first faces.
 std::vector<std::uint32_t> part_of_faces(const Mesh& mesh) {
-  std::vector<std::uint32_t> parent(mesh.vertices.size());
-  std::iota(parent.begin(), parent.end(), 0U);
+  Components components(mesh.vertices.size());
   for (const glm::uvec3& face : mesh.faces) {
-    for (const std::uint32_t other : {face.y, face.z}) {
-      const std::uint32_t a = root_of(parent, face.x);
-      const std::uint32_t b = root_of(parent, other);
-      parent[std::max(a, b)] = std::min(a, b);
-    }
+    components.unite(face.x, face.y);
+    components.unite(face.x, face.z);
   }
   constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> number(mesh.vertices.size(), kNone);
@@ -51,7 +43,7 @@ std::vector<std::uint32_t> part_of_faces(const Mesh& mesh) {
   result.reserve(mesh.faces.size());
   std::uint32_t count = 0;
   for (const glm::uvec3& face : mesh.faces) {
-    std::uint32_t& part = number[root_of(parent, face.x)];
+    std::uint32_t& part = number[components.of(face.x)];
     if (part == kNone) part = count++;
     result.push_back(part);
   }

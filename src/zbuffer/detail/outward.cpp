@@ -5,25 +5,11 @@
 #include <numeric>
 #include <span>
 
+#include "core/components.hpp"
 #include "zbuffer/detail/drawable.hpp"
 
 namespace rejoin::zbuffer::detail {
 namespace {
-
-/// Sets of vertices.
-class Components {
- public:
-  explicit Components(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
-
-  std::uint32_t of(std::uint32_t vertex) {
-    while (parent_[vertex] != vertex) vertex = parent_[vertex] = parent_[parent_[vertex]];
-    return vertex;
-  }
-  void unite(std::uint32_t a, std::uint32_t b) { parent_[of(a)] = of(b); }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /// A face's edge at its lower vertex: the other one, and whether the face goes up along it.
 struct End {
