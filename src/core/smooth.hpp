@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/cyclic.hpp"
+
 namespace rejoin {
 
 /// Convolution of a closed sequence of evenly spaced values (numbers, points) with a Gaussian that ends at 3.5 standard
@@ -25,8 +27,7 @@ std::vector<Value> smooth(const std::vector<Value>& values, double deviation) {
   // Laid out with its ends repeated, so that the inner loop knows no wrap.
   std::vector<Value> around(values.size() + 2 * static_cast<std::size_t>(reach));
   for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(around.size()); ++i)
-    around[static_cast<std::size_t>(i)] =
-        values[static_cast<std::size_t>((((i - reach) % count) + count) % count)];
+    around[static_cast<std::size_t>(i)] = values[wrapped(i - reach, values.size())];
   std::vector<Value> result(values.size());
   for (std::ptrdiff_t i = 0; i < count; ++i) {
     const Value* centre = around.data() + i + reach;

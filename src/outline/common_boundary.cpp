@@ -5,6 +5,8 @@
 #include <cmath>
 #include <deque>
 
+#include "core/cyclic.hpp"
+
 namespace rejoin::outline {
 namespace {
 
@@ -78,17 +80,11 @@ class Growth {
     double cost = 0.0;
   };
 
-  static std::size_t wrap(long at, const PropertyPlot& plot) {
-    const auto size = static_cast<long>(plot.size());
-    const long rest = at % size;
-    return static_cast<std::size_t>(rest < 0 ? rest + size : rest);
-  }
-
-  static float turn(const PropertyPlot& plot, long at) { return plot.channels[0][wrap(at, plot)]; }
+  static float turn(const PropertyPlot& plot, long at) { return plot.channels[0][wrapped(at, plot.size())]; }
 
   double difference(long at_a, long at_b) const {
-    const std::size_t i = wrap(at_a, a_);
-    const std::size_t j = wrap(at_b, b_);
+    const std::size_t i = wrapped(at_a, a_.size());
+    const std::size_t j = wrapped(at_b, b_.size());
     const double turn = std::abs(a_.channels[0][i] - b_.channels[0][j]);
     const double share = options_.weights.colour;
     if (share <= 0.0 || a_.channels.size() < 4 || b_.channels.size() < 4) return turn;

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "core/cyclic.hpp"
 #include "core/smooth.hpp"
 #include "outline/signal.hpp"
 
@@ -98,7 +99,7 @@ PointRun grown_run(const Silhouette& a, const Silhouette& b, const Planar& a_to_
   const Motion motion(a_to_b);
   const auto count = static_cast<long>(a.points.size());
   const auto touches = [&](long i) {
-    const auto at = static_cast<std::size_t>(((i % count) + count) % count);
+    const std::size_t at = wrapped(i, a.points.size());
     const glm::dvec2 p = motion(a.points[at]);
     if (std::abs(b.field(p)) > tolerance) return false;
     const glm::dvec2 inward = b.field.gradient(p);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/cyclic.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "outline/contact.hpp"
@@ -127,11 +128,8 @@ class EmdMatcher final : public Matcher {
   }
 
   static Boundary boundary(const PropertyPlot& a, const PropertyPlot& b, const Stretch& stretch) {
-    const auto size_a = static_cast<long>(a.size());
-    const auto size_b = static_cast<long>(b.size());
-    const long begin_a = ((stretch.a.front() % size_a) + size_a) % size_a;
-    const long begin_b = ((-stretch.b.front() % size_b) + size_b) % size_b;
-    return {a.step * static_cast<double>(begin_a), b.step * static_cast<double>(begin_b),
+    return {a.step * static_cast<double>(wrapped(stretch.a.front(), a.size())),
+            b.step * static_cast<double>(wrapped(-stretch.b.front(), b.size())),
             a.step * static_cast<double>(stretch.a.size() - 1)};
   }
 
@@ -146,10 +144,8 @@ class EmdMatcher final : public Matcher {
     const PointRun on_b =
         grown_run(sb, sa, candidate.pose, kTolerance * sa.step,
                   {std::lround((begin_b - length) / sb.step), std::lround(begin_b / sb.step)});
-    const auto size_a = static_cast<long>(sa.points.size());
-    const auto size_b = static_cast<long>(sb.points.size());
-    return {sa.step * static_cast<double>(((on_a.first % size_a) + size_a) % size_a),
-            sb.step * static_cast<double>(((on_b.last % size_b) + size_b) % size_b),
+    return {sa.step * static_cast<double>(wrapped(on_a.first, sa.points.size())),
+            sb.step * static_cast<double>(wrapped(on_b.last, sb.points.size())),
             0.5 * (sa.step * static_cast<double>(on_a.last - on_a.first) +
                    sb.step * static_cast<double>(on_b.last - on_b.first))};
   }

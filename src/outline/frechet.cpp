@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <array>
 
+#include "core/cyclic.hpp"
+
 namespace rejoin::outline {
 namespace {
 
 const glm::dvec2& sample(const PropertyPlot& plot, long i) {
-  const auto size = static_cast<long>(plot.size());
-  return plot.points[static_cast<std::size_t>(((i % size) + size) % size)];
+  return plot.points[wrapped(i, plot.size())];
 }
 
 constexpr std::size_t kWidth = static_cast<std::size_t>(2 * kBand + 1);
@@ -131,8 +132,7 @@ Stretch longest_frechet(const PropertyPlot& a, const PropertyPlot& b, const Mome
   }
   for (std::size_t k = 0; k < stretch.a.size(); ++k) {
     const auto turn = [](const PropertyPlot& plot, long i) {
-      const auto size = static_cast<long>(plot.size());
-      return plot.channels[0][static_cast<std::size_t>(((i % size) + size) % size)];
+      return plot.channels[0][wrapped(i, plot.size())];
     };
     const float of_a = turn(a, stretch.a[k]);
     const float of_b = turn(b, stretch.b[k]);

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/cyclic.hpp"
+
 namespace rejoin::outline {
 namespace {
 
@@ -15,7 +17,7 @@ constexpr double kUnit = 1e7;
 }  // namespace
 
 Sand::Sand(const PropertyPlot& plot, long begin, std::size_t count, std::size_t bins_) : bins(bins_) {
-  const auto size = static_cast<long>(plot.size());
+  const std::size_t size = plot.size();
   channels.reserve(plot.channels.size());
   for (std::size_t c = 0; c < plot.channels.size(); ++c) {
     const float unit = c == 0 ? static_cast<float>(1.0 / M_PI) : 1.0F;
@@ -26,8 +28,7 @@ Sand::Sand(const PropertyPlot& plot, long begin, std::size_t count, std::size_t 
       const std::size_t last = std::max(first + 1, (k + 1) * count / bins);
       float sum = 0.0F;
       for (std::size_t s = first; s < last; ++s) {
-        const long at = (begin + static_cast<long>(s)) % size;
-        sum += plot.channels[c][static_cast<std::size_t>(at < 0 ? at + size : at)];
+        sum += plot.channels[c][wrapped(begin + static_cast<long>(s), size)];
       }
       values[k] = unit * sum / static_cast<float>(last - first);
     }

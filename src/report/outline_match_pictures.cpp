@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <string_view>
 
+#include "core/cyclic.hpp"
 #include "core/files.hpp"
 #include "core/smooth.hpp"
 #include "outline/assembly_pictures.hpp"
@@ -119,9 +120,7 @@ std::vector<double> curvature_along(const Polygon& border, double begin, double 
   std::vector<double> result;
   result.reserve(kSamples);
   for (std::size_t i = 0; i < kSamples; ++i) {
-    const auto at = static_cast<long long>(std::llround((begin + step * static_cast<double>(i)) / own));
-    const auto size = static_cast<long long>(count);
-    result.push_back(bends[static_cast<std::size_t>(((at % size) + size) % size)]);
+    result.push_back(bends[wrapped(std::llround((begin + step * static_cast<double>(i)) / own), count)]);
   }
   return result;
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/cyclic.hpp"
 #include "outline/emd.hpp"
 #include "planted.hpp"
 
@@ -71,11 +72,9 @@ TEST(Frechet, StretchKeepsWithinTheTolerance) {
   const Planar truth = inverse(cut.board.poses[0]) * cut.board.poses[1];
   const Stretch stretch = longest_frechet(cut.a, cut.b, cut.moment, {1.5, 20, 2});
   EXPECT_NEAR(kStep * static_cast<double>(stretch.a.size()), cut_length(cut), 12.0 * kStep);
-  const auto size_a = static_cast<long>(cut.a.size());
-  const auto size_b = static_cast<long>(cut.b.size());
   for (std::size_t k = 0; k < stretch.a.size(); ++k) {
-    const auto i = static_cast<std::size_t>(((stretch.a[k] % size_a) + size_a) % size_a);
-    const auto j = static_cast<std::size_t>(((stretch.b[k] % size_b) + size_b) % size_b);
+    const std::size_t i = wrapped(stretch.a[k], cut.a.size());
+    const std::size_t j = wrapped(stretch.b[k], cut.b.size());
     // The tolerance, and what the fitted pose is off the true one.
     EXPECT_LT(glm::distance(cut.a.points[i], truth(cut.b.points[j])), 2.5);
     const long before = stretch.a[k > 0 ? k - 1 : 0];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/cyclic.hpp"
 #include "core/median.hpp"
 
 namespace rejoin::outline::detail {
@@ -20,12 +21,6 @@ constexpr double kNoGap = 0.002;
 constexpr std::size_t kLeastContacts = 6;
 /// A sample that is not close costs as much as this many close ones when the boundary's ends are found.
 constexpr double kBreakCost = 2.0;
-
-std::size_t wrapped(std::int64_t index, std::size_t count) {
-  const auto size = static_cast<std::int64_t>(count);
-  const std::int64_t rest = index % size;
-  return static_cast<std::size_t>(rest < 0 ? rest + size : rest);
-}
 
 glm::dvec2 sample_point(const ScaleSignal& signal, std::int64_t index) {
   return signal.points[wrapped(index, signal.points.size())];

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/cyclic.hpp"
+
 namespace rejoin::outline::detail {
 namespace {
 
@@ -81,16 +83,15 @@ class Aligner {
   /// Two alignments are one if they run along the same cells: near each other on the diagonal and in the same place.
   bool same(const End& x, const End& y) const {
     const auto off = [](std::int64_t d, std::size_t n) {
-      const auto size = static_cast<std::int64_t>(n);
-      d = ((d % size) + size) % size;
-      return std::min(d, size - d);
+      const std::size_t ahead = wrapped(d, n);
+      return static_cast<std::int64_t>(std::min(ahead, n - ahead));
     };
     const std::int64_t rows = off(static_cast<std::int64_t>(x.row) - y.row, size_a_);
     const std::int64_t shift = std::abs((static_cast<std::int64_t>(x.row) - x.column) -
                                         (static_cast<std::int64_t>(y.row) - y.column));
-    const std::int64_t wrapped = std::min({shift, off(shift, size_a_), off(shift, size_b_)});
+    const std::int64_t across = std::min({shift, off(shift, size_a_), off(shift, size_b_)});
     const auto begin_x = static_cast<std::int64_t>(x.cell >> kRowShift & 0xffff);
-    return wrapped <= 12 && rows <= static_cast<std::int64_t>(x.row) - begin_x + 12;
+    return across <= 12 && rows <= static_cast<std::int64_t>(x.row) - begin_x + 12;
   }
 
   std::vector<End> best_ends() const {

@@ -4,17 +4,13 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/cyclic.hpp"
+
 namespace rejoin::outline::detail {
 namespace {
 
 /// Candidates this near to each other across the diagonal are the same, samples.
 constexpr int kSameDiagonal = 2;
-
-std::size_t wrap(std::int32_t index, std::size_t size) {
-  const auto count = static_cast<std::int32_t>(size);
-  const std::int32_t rest = index % count;
-  return static_cast<std::size_t>(rest < 0 ? rest + count : rest);
-}
 
 /// Squared difference of two samples, and the share of xi^2 that is allowed there.
 struct Cell {
@@ -23,8 +19,8 @@ struct Cell {
 };
 
 Cell cell(const Sequences& s, const PairedSamples& at) {
-  const std::size_t i = wrap(at.i, s.a->values.size());
-  const std::size_t j = wrap(at.j, s.b->values.size());
+  const std::size_t i = wrapped(at.i, s.a->values.size());
+  const std::size_t j = wrapped(at.j, s.b->values.size());
   const double d = static_cast<double>(s.a->values[i]) - static_cast<double>(s.b->values[j]);
   return {d * d, static_cast<double>(s.a->relief[i]) * static_cast<double>(s.b->relief[j])};
 }

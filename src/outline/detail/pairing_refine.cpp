@@ -2,18 +2,13 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/cyclic.hpp"
 #include "outline/detail/pairing.hpp"
 
 namespace rejoin::outline::detail {
 namespace {
 
 enum Step : std::uint8_t { kStart, kBoth, kOnlyA, kOnlyB };
-
-std::size_t wrap(std::int32_t index, std::size_t size) {
-  const auto count = static_cast<std::int32_t>(size);
-  const std::int32_t rest = index % count;
-  return static_cast<std::size_t>(rest < 0 ? rest + count : rest);
-}
 
 /// Dynamic programming over rows i = first .. first + rows - 1, in each over columns centre(i) - band .. centre(i) + band.
 /// Maximises the gain xi^2 n_min - Delta of a path with free ends.
@@ -53,10 +48,10 @@ class Band {
   }
 
   void fill_balances(std::size_t row) {
-    const std::size_t i = wrap(first_ + static_cast<std::int32_t>(row), s_.a->values.size());
+    const std::size_t i = wrapped(first_ + static_cast<std::int32_t>(row), s_.a->values.size());
     const float value = s_.a->values[i];
     const float allowed = static_cast<float>(xi2_) * s_.a->relief[i];
-    std::size_t j = wrap(j_of(row, 0), s_.b->values.size());
+    std::size_t j = wrapped(j_of(row, 0), s_.b->values.size());
     for (std::size_t column = 0; column < width_; ++column) {
       const float d = value - s_.b->values[j];
       balances_[row * width_ + column] = allowed * s_.b->relief[j] - d * d;
