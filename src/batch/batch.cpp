@@ -40,7 +40,8 @@ class Work {
         listener_(listener),
         context_(context),
         names_(find_scans(inputs)),
-        copies_(find_copies(inputs, names_)),
+        equal_sized_(files_of_equal_size(inputs, names_)),
+        copies_(store::copies(equal_sized_)),
         tiles_(tiles_of(take_copies_off(), options.shard)),
         run_(open(output)),
         shelf_(output / "fragments") {}
@@ -93,8 +94,7 @@ class Work {
     listener_.on_start(forgotten, progress_);
     for (const auto& [copy, first] : copies_) {
       if (fragments_.count(copy) == 0) continue;
-      listener_.on_warning(fmt::format("{0} and {1} are the same scan: {1} is left out", first, copy),
-                           progress_);
+      listener_.on_warning(store::told_of_copy(copy, first), progress_);
     }
     for (const auto& [name, fragment] : fragments_) {
       if (fragment.state == store::FragmentState::Bad) listener_.on_fragment(fragment, progress_);
@@ -125,21 +125,20 @@ class Work {
     for (const auto& [copy, first] : copies_) {
       if (needed.count(first) != 0) needed.insert(copy);
     }
+    std::map<std::string, std::string> hashes;
+    for (const store::Fragment& file : equal_sized_) hashes[file.name] = file.hash;
     std::vector<store::Fragment> list;
     list.reserve(needed.size());
     for (const std::string& name : needed) {
       store::Fragment fragment;
       fragment.name = name;
       fragment.path = fs::absolute(inputs_ / name).lexically_normal().string();
+      fragment.hash = hashes[name];
       list.push_back(std::move(fragment));
     }
     run_side_by_side(list.size(), [&](std::size_t k) {
-      try {
-        list[k].hash = content_hash(list[k].path);
-      } catch (const IoError&) {
-        // Becomes a bad fragment when it is loaded, and a changed one once it can be read.
-        list[k].hash = store::kUnreadable;
-      }
+      // One that cannot be read becomes a bad fragment when it is loaded, and a changed one once it can be read.
+      if (list[k].hash.empty()) list[k].hash = hash_if_readable(list[k].path);
     });
     return list;
   }
@@ -234,6 +233,7 @@ class Work {
   Listener& listener_;
   const Context& context_;
   std::vector<std::string> names_;             // of the scans that have pairs
+  std::vector<store::Fragment> equal_sized_;   // name and hash
   std::map<std::string, std::string> copies_;  // of the others, with the names that stand for them
   std::vector<Tile> tiles_;
   store::Run run_;

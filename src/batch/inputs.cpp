@@ -9,10 +9,10 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <map>
 #include <memory>
 
 #include "core/error.hpp"
-#include "core/words.hpp"
 
 namespace rejoin::batch {
 namespace fs = std::filesystem;
@@ -70,29 +70,32 @@ std::string content_hash(const fs::path& path) {
   return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
-std::map<std::string, std::string> find_copies(const fs::path& folder,
-                                               const std::vector<std::string>& names) {
+std::string hash_if_readable(const fs::path& path) {
+  try {
+    return content_hash(path);
+  } catch (const IoError&) {  // told when it is loaded
+    return store::kUnreadable;
+  }
+}
+
+std::vector<store::Fragment> files_of_equal_size(const fs::path& folder,
+                                                 const std::vector<std::string>& names) {
   std::map<std::uintmax_t, std::vector<std::string>> of_size;
   for (const std::string& name : names) {
     std::error_code problem;
     const std::uintmax_t size = fs::file_size(folder / name, problem);
     if (!problem) of_size[size].push_back(name);
   }
-  std::map<std::string, std::string> copies;
-  for (auto& [size, same_size] : of_size) {
+  std::vector<store::Fragment> files;
+  for (const auto& [size, same_size] : of_size) {
     if (same_size.size() < 2) continue;
-    std::sort(same_size.begin(), same_size.end(), stands_for_both);
-    std::map<std::string, std::string> first;  // by hash
     for (const std::string& name : same_size) {
-      try {
-        const std::string& stands = first.try_emplace(content_hash(folder / name), name).first->second;
-        if (stands != name) copies[name] = stands;
-      } catch (const IoError&) {  // told when it is loaded
-        continue;
-      }
+      files.emplace_back();
+      files.back().name = name;
+      files.back().hash = hash_if_readable(folder / name);
     }
   }
-  return copies;
+  return files;
 }
 
 }  // namespace rejoin::batch

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
+
+#include "store/records.hpp"
 
 namespace rejoin::batch {
 
@@ -17,10 +18,12 @@ std::vector<std::string> find_scans(const std::filesystem::path& folder);
 /// \throws IoError the file cannot be read
 std::string content_hash(const std::filesystem::path& path);
 
-/// Files that have the content of another, with the name of the one that stands for both (stands_for_both()).  Only files of equal size are read; one that cannot
-/// be read is no copy.
+/// content_hash(), or store::kUnreadable where the file cannot be read.
+std::string hash_if_readable(const std::filesystem::path& path);
+
+/// Name and hash_if_readable() of every file whose size another has, too.  No other file can be among store::copies().
 /// \param names  as find_scans() gives them
-std::map<std::string, std::string> find_copies(const std::filesystem::path& folder,
-                                               const std::vector<std::string>& names);
+std::vector<store::Fragment> files_of_equal_size(const std::filesystem::path& folder,
+                                                 const std::vector<std::string>& names);
 
 }  // namespace rejoin::batch

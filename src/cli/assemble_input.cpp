@@ -38,7 +38,7 @@ std::map<std::int64_t, std::size_t> load_all(const store::Run& run, const fs::pa
     if (context.cancelled()) break;
     const auto copy = copies.find(fragment.name);
     if (copy != copies.end()) {
-      input.bad[fragment.name] = fmt::format("is the same scan as {}, which stands for both", copy->second);
+      input.bad[fragment.name] = store::reason_of_copy(copy->second);
       continue;
     }
     if (fragment.state == store::FragmentState::Bad) {

@@ -273,8 +273,7 @@ report::RunReport read_run(const std::filesystem::path& run, std::size_t listed,
   Numbers numbers;
   const std::vector<store::Fragment> fragments = database.fragments();
   const std::map<std::string, std::string> copies = store::copies(fragments);
-  for (const auto& [copy, first] : copies)
-    report.warnings.push_back(fmt::format("{0} and {1} are the same scan: {1} is left out", first, copy));
+  for (const auto& [copy, first] : copies) report.warnings.push_back(store::told_of_copy(copy, first));
   const std::string sizes = batch::told(batch::odd_sizes(fragments));
   if (!sizes.empty()) report.warnings.push_back(sizes);
   for (const store::Fragment& stored : fragments) {
@@ -287,8 +286,7 @@ report::RunReport read_run(const std::filesystem::path& run, std::size_t listed,
     if (stored.state == store::FragmentState::Bad)
       fragment.reason = "its file cannot be used: " + stored.error;
     const auto copy = copies.find(stored.name);
-    if (copy != copies.end())
-      fragment.reason = fmt::format("is the same scan as {}, which stands for both", copy->second);
+    if (copy != copies.end()) fragment.reason = store::reason_of_copy(copy->second);
     report.fragments.push_back(std::move(fragment));
   }
   add_pairs(report, database, numbers, listed);

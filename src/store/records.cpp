@@ -1,5 +1,7 @@
 #include "store/records.hpp"
 
+#include <fmt/format.h>
+
 #include "core/words.hpp"
 
 namespace rejoin::store {
@@ -16,6 +18,14 @@ std::map<std::string, std::string> copies(const std::vector<Fragment>& fragments
     if (fragment.hash != kUnreadable && name != fragment.name) result[fragment.name] = name;
   }
   return result;
+}
+
+std::string told_of_copy(const std::string& copy, const std::string& first) {
+  return fmt::format("{0} and {1} are the same scan: {1} is left out", first, copy);
+}
+
+std::string reason_of_copy(const std::string& first) {
+  return fmt::format("is the same scan as {}, which stands for both", first);
 }
 
 const char* name_of(Stage stage) {

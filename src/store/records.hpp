@@ -42,9 +42,16 @@ struct Fragment {
   bool operator==(const Fragment&) const = default;
 };
 
-/// Fragments whose file has the content of another, with the name of the one that stands for both (stands_for_both()).  Copies have no
-/// pairs.
+/// Fragments whose file has the content of another, with the name of the one that stands for both (stands_for_both()).
+/// Copies have no pairs.
+/// \param fragments  name and hash are used
 std::map<std::string, std::string> copies(const std::vector<Fragment>& fragments);
+
+/// What is told of a run with a copy: a sentence without its full stop.
+/// \param first  stands for both
+std::string told_of_copy(const std::string& copy, const std::string& first);
+/// Why a copy has no place; its name goes before.
+std::string reason_of_copy(const std::string& first);
 
 /// How far a pair was taken.
 enum class Stage {

@@ -24,14 +24,6 @@ namespace {
 
 constexpr int kPatience_ms = 60000;  // while a reader's checkpoint or a copy holds the file
 
-std::vector<Fragment> all_fragments(SQLite::Database& database) {
-  SQLite::Statement rows(database,
-                         fmt::format("SELECT {} FROM fragment ORDER BY name", detail::kFragmentColumns));
-  std::vector<Fragment> list;
-  while (rows.executeStep()) list.push_back(detail::fragment_from(rows));
-  return list;
-}
-
 Parameters read_parameters(SQLite::Database& database) {
   SQLite::Statement row(database, "SELECT version, parameters, seed FROM run");
   if (!row.executeStep()) return {};
@@ -90,7 +82,7 @@ void require_shard(SQLite::Database& database, const std::string& shard, const s
 /// \return names of what was removed
 std::vector<std::string> forget_changed(SQLite::Database& database, std::map<std::string, Fragment>& wanted) {
   std::vector<std::string> names;
-  for (const Fragment& known : all_fragments(database)) {
+  for (const Fragment& known : detail::all_fragments(database)) {
     const auto same = wanted.find(known.name);
     if (same == wanted.end() || same->second.hash != known.hash) {
       remove_fragment(database, known.id);
@@ -147,7 +139,7 @@ Parameters Run::parameters() const {
 }
 
 std::vector<Fragment> Run::fragments() const {
-  return detail::guarded(access_->path, [&] { return all_fragments(*access_->database); });
+  return detail::guarded(access_->path, [&] { return detail::all_fragments(*access_->database); });
 }
 
 std::vector<Pair> Run::pairs() const {

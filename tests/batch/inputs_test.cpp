@@ -60,8 +60,10 @@ TEST_F(Inputs, CopiesAreFoundByContentAndTheShortestNameStandsForAll) {
   put("d.ply", "one more");
   put("e.ply", "one");
   const std::map<std::string, std::string> expected{{"Copy of c.ply", "c.ply"}, {"e.ply", "c.ply"}};
-  EXPECT_EQ(find_copies(folder_, {"Copy of c.ply", "b.ply", "c.ply", "d.ply", "e.ply", "gone.ply"}),
-            expected);
+  const std::vector<store::Fragment> files =
+      files_of_equal_size(folder_, {"Copy of c.ply", "b.ply", "c.ply", "d.ply", "e.ply", "gone.ply"});
+  EXPECT_EQ(files.size(), 4U) << "d.ply has a size of its own and need not be read";
+  EXPECT_EQ(store::copies(files), expected);
 }
 
 }  // namespace

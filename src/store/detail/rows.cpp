@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <string>
 
 namespace rejoin::store::detail {
@@ -30,14 +31,15 @@ std::array<double, 7> figures(const Candidate& c) {
 }  // namespace
 
 void remove_pairs_of_copies(SQLite::Database& database) {
-  const std::string copies = fmt::format(
-      "SELECT name FROM (SELECT name, first_value(name) OVER (PARTITION BY hash ORDER BY length(CAST(name AS "
-      "BLOB)), name) AS stands FROM fragment WHERE hash <> '{}') WHERE name <> stands",
-      kUnreadable);
-  database.exec(
-      fmt::format("DELETE FROM pair WHERE a IN (SELECT id FROM fragment WHERE name IN ({0})) "
-                  "OR b IN (SELECT id FROM fragment WHERE name IN ({0}))",
-                  copies));
+  const std::vector<Fragment> fragments = all_fragments(database);
+  const std::map<std::string, std::string> left_out = copies(fragments);
+  SQLite::Statement remove(database, "DELETE FROM pair WHERE a = ?1 OR b = ?1");
+  for (const Fragment& fragment : fragments) {
+    if (left_out.count(fragment.name) == 0) continue;
+    remove.reset();
+    remove.bind(1, fragment.id);
+    remove.exec();
+  }
 }
 
 const char* name_of(FragmentState state) {
@@ -80,6 +82,13 @@ Fragment fragment_from(SQLite::Statement& row) {
   fragment.state = fragment_state(row.getColumn(6).getString());
   fragment.error = row.getColumn(7).getString();
   return fragment;
+}
+
+std::vector<Fragment> all_fragments(SQLite::Database& database) {
+  SQLite::Statement rows(database, fmt::format("SELECT {} FROM fragment ORDER BY name", kFragmentColumns));
+  std::vector<Fragment> list;
+  while (rows.executeStep()) list.push_back(fragment_from(rows));
+  return list;
 }
 
 Candidate candidate_from(SQLite::Statement& row) {

@@ -4,6 +4,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include <string>
+#include <vector>
 
 #include "store/records.hpp"
 
@@ -27,6 +28,8 @@ FragmentState fragment_state(const std::string& name);
 Stage stage(const std::string& name);
 
 Fragment fragment_from(SQLite::Statement& row);
+/// By name.
+std::vector<Fragment> all_fragments(SQLite::Database& database);
 Candidate candidate_from(SQLite::Statement& row);
 
 /// Binds the columns of kCandidateColumns to parameters first, first + 1, ...
