@@ -12,6 +12,7 @@
 #include "cli/interrupt.hpp"
 #include "core/files.hpp"
 #include "core/words.hpp"
+#include "store/remains.hpp"
 #include "store/run.hpp"
 
 namespace rejoin::cli {
@@ -31,9 +32,8 @@ class MergeCommand final : public Command {
     const store::Run whole = store::Run::open(out_);
     batch::write_table(whole, std::filesystem::path(out_) / batch::kTableName);
     console.result(counted(merged.fragments, "fragment") + ", " + counted(merged.pairs, "pair"));
-    const std::size_t different = merged.fragments - store::copies(whole.fragments()).size();
-    const std::size_t all = different * (different - 1) / 2;
-    if (merged.pairs < all) console.result(fmt::format(" ({} still to be done)", all - merged.pairs));
+    const std::size_t missing = store::remains(whole).missing;
+    if (missing > 0) console.result(fmt::format(" ({} still to be done)", missing));
     console.result(fmt::format("\nwrote {}/{}\n", out_, batch::kTableName));
     if (merged.failed == 0) return kDone;
     console.warning(counted(merged.failed, "pair") + " failed; the table tells why");
