@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
+#include <utility>
 
 #include "match/evidence.hpp"
 
@@ -153,7 +154,7 @@ Touch touch(const Piece& a, const Piece& b, const Rigid& b_to_a) {
     gaps.push_back(gap);
     if (std::abs(gap) <= tolerance) touching_count += 1.0;
   }
-  return {touching_count * b.broken_area(), match::median_gap(gaps)};
+  return {touching_count * b.broken_area(), match::median_gap(std::move(gaps))};
 }
 
 double overlap(const Piece& a, const Piece& b, const Rigid& b_to_a) {

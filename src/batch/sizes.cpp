@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/median.hpp"
 #include "match/units.hpp"
 
 namespace rejoin::batch {
@@ -12,10 +13,7 @@ OddSizes odd_sizes(const std::vector<store::Fragment>& fragments) {
   std::vector<double> diameters;
   for (const store::Fragment& fragment : fragments)
     if (fragment.state == store::FragmentState::Ready) diameters.push_back(fragment.diameter);
-  if (diameters.empty()) return {};
-  const auto middle = diameters.begin() + static_cast<std::ptrdiff_t>(diameters.size() / 2);
-  std::nth_element(diameters.begin(), middle, diameters.end());
-  OddSizes odd{*middle, {}};
+  OddSizes odd{median(diameters), {}};
   for (const store::Fragment& fragment : fragments) {
     if (fragment.state != store::FragmentState::Ready) continue;
     if (match::units_differ(fragment.diameter, odd.median)) odd.fragments.push_back(fragment);

@@ -144,7 +144,7 @@ class Look {
     e.contact_area = touching * share;
     e.shared_area = static_cast<double>(gaps.size()) * share;
     e.patch_area = lengths_.patch * lengths_.patch;
-    e.gap_median = median_gap(gaps);
+    e.gap_median = median_gap(std::move(gaps));
     if (glm::length(normal) > 0) e.normal = glm::normalize(normal);
     e.core_samples = static_cast<int>(core.size());
     if (core.size() < 12 || !(glm::length(normal) > 0)) return;
