@@ -6,6 +6,7 @@
 #include "cli/arguments.hpp"
 #include "cli/outline_command.hpp"
 #include "core/files.hpp"
+#include "core/words.hpp"
 #include "outline/shatter.hpp"
 
 namespace rejoin::cli {
@@ -59,10 +60,10 @@ class OutlineShatterCommand final : public Command {
     }
     const std::string truth = (folder / "truth.json").string();
     write_file(truth, outline::truth_json(broken, options, ending));
-    console.result(fmt::format("{} pieces of {} {}{}, {} join{}\nwrote {}\n", broken.pieces.size(),
-                               options.objects, tiles_ > 0 ? "tile" : "shape",
-                               options.objects == 1 ? "" : "s", broken.joins.size(),
-                               broken.joins.size() == 1 ? "" : "s", truth));
+    console.result(
+        fmt::format("{} of {}, {}\nwrote {}\n", counted(broken.pieces.size(), "piece"),
+                    counted(static_cast<std::size_t>(options.objects), tiles_ > 0 ? "tile" : "shape"),
+                    counted(broken.joins.size(), "join"), truth));
     return kDone;
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/words.hpp"
 #include "mesh/detail/orient.hpp"
 #include "mesh/detail/soup.hpp"
 #include "mesh/detail/specks.hpp"
@@ -105,9 +106,9 @@ void clean_faces(Loaded& loaded, const std::string& name) {
   }
   if (const Specks specks = drop_specks(mesh); specks.parts > 0) {
     loaded.warnings.push_back(
-        fmt::format("{}: dropped {} of {} faces, in {} small part{} far from the rest (remove specks in the "
-                    "scanning software)",
-                    name, specks.faces, before, specks.parts, specks.parts == 1 ? "" : "s"));
+        fmt::format("{}: dropped {} of {} faces, in {} far from the rest (remove specks in the scanning "
+                    "software)",
+                    name, specks.faces, before, counted(specks.parts, "small part")));
   }
   drop_unused_vertices(mesh);
   const Turned turned = orient_faces(mesh);
