@@ -22,12 +22,17 @@ double touching_length(const planted::Board& board) {
   return length;
 }
 
+/// The first two pieces of a board.
+PairResult matched(const planted::Board& board) {
+  const auto matcher = make_emd();
+  matcher->prepare(board.pieces);
+  return matcher->match(0, 1, Context());
+}
+
 TEST(Emd, FindsThePlantedJoinOfTwoPieces) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const planted::Board board = planted::broken_board(2, 1, 0.05, seed);
-    const auto matcher = make_emd();
-    matcher->prepare(board.pieces);
-    const PairResult result = matcher->match(0, 1, Context());
+    const PairResult result = matched(board);
     ASSERT_FALSE(result.candidates.empty());
     const Planar truth = inverse(board.poses[0]) * board.poses[1];
     EXPECT_LT(angle_between(result.candidates[0].pose, truth), 0.01) << "seed " << seed;
@@ -56,9 +61,7 @@ TEST(Emd, FollowsTheScaleOfTheFiles) {
 TEST(Emd, TheBoundaryRunsAsFarAsThePiecesTouch) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const planted::Board board = planted::broken_board(2, 1, 0.05, seed);
-    const auto matcher = make_emd();
-    matcher->prepare(board.pieces);
-    const PairResult result = matcher->match(0, 1, Context());
+    const PairResult result = matched(board);
     ASSERT_FALSE(result.candidates.empty());
     const JoinCandidate& best = result.candidates[0];
     // The two outlines have no other common line; where a sample is counted to, the length is off by a step or two an end.
