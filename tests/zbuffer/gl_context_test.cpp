@@ -67,7 +67,7 @@ TEST_P(GlContext, SecondContextDoesNotDisturbTheFirst) {
 
 TEST_P(GlContext, MisuseIsReported) {
   for (const bool debug : {false, true}) {
-    const auto context = make_context(GetParam(), {.library = {}, .debug = debug});
+    const auto context = make_context(GetParam(), {.soname = {}, .debug = debug});
     const Bound bound(*context);
     EXPECT_NO_THROW(context->check("doing nothing"));
     context->gl().Enable(0xdead);
@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(Backends, GlContext, testing::Values(Backend::Gpu, Back
 TEST(GlLibrary, MissingOneIsABackendErrorWithItsMend) {
   for (const Backend backend : {Backend::Gpu, Backend::OsMesa}) {
     try {
-      make_context(backend, {.library = "libnot-there.so.1", .debug = false});
+      make_context(backend, {.soname = "libnot-there.so.1", .debug = false});
       FAIL() << "made a context out of nothing";
     } catch (const BackendError& error) {
       const std::string message = error.what();
@@ -112,7 +112,7 @@ TEST(GlLibrary, MissingOneIsABackendErrorWithItsMend) {
 
 TEST(GlLibrary, WrongOneIsABackendError) {
   for (const Backend backend : {Backend::Gpu, Backend::OsMesa}) {
-    EXPECT_THROW(make_context(backend, {.library = "libc.so.6", .debug = false}), BackendError);
+    EXPECT_THROW(make_context(backend, {.soname = "libc.so.6", .debug = false}), BackendError);
   }
 }
 

@@ -201,7 +201,7 @@ TEST_P(GlPaths, NothingDependsOnTheUnitOfLength) {
 
 TEST_P(GlPaths, NoPathMisusesOpenGl) {
   // A debug context makes the scorer throw at whatever the driver objects to.
-  const auto engine = std::make_shared<Engine>(make_context(GetParam(), {.library = {}, .debug = true}));
+  const auto engine = std::make_shared<Engine>(make_context(GetParam(), {.soname = {}, .debug = true}));
   const mesh::Mesh a = test::bumpy_sphere(2, 11);
   const auto poses = test::random_poses(20, 40);
   for (const Path path : {Path::ComputeBuffer, Path::ComputeShared, Path::Pipeline}) {

@@ -10,9 +10,9 @@
 namespace rejoin::zbuffer::gl {
 
 struct ContextOptions {
-  /// Shared libraries to open.  Empty: the environment's REJOIN_EGL_LIBRARY / REJOIN_OSMESA_LIBRARY, else the
-  /// system's libEGL.so.1 / libOSMesa.so.8 (or .6).
-  std::string library;
+  /// Name of the shared library to open, "libEGL.so.1", or its path.  Empty: the environment's REJOIN_EGL_LIBRARY /
+  /// REJOIN_OSMESA_LIBRARY, else the system's libEGL.so.1 / libOSMesa.so.8 (or .6).
+  std::string soname;
   /// Asks the driver to report misuse; the reports come out of Context::check().
   bool debug = false;
 };

@@ -53,7 +53,7 @@ struct Egl {
 Egl open_egl(const ContextOptions& options) {
   const char* from_environment = std::getenv("REJOIN_EGL_LIBRARY");
   std::string file = from_environment != nullptr ? from_environment : "libEGL.so.1";
-  if (!options.library.empty()) file = options.library;
+  if (!options.soname.empty()) file = options.soname;
   const Library library(kSubject, file, kMend);
   Egl egl;
 #define REJOIN_EGL_LOAD(name, type)           \

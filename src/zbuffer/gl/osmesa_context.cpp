@@ -51,7 +51,7 @@ constexpr const char* kMend = "install libosmesa6 or choose --backend raster";
 
 Library open_library(const std::string& subject, const ContextOptions& options) {
   const char* from_environment = std::getenv("REJOIN_OSMESA_LIBRARY");
-  if (!options.library.empty()) return {subject, options.library, kMend};
+  if (!options.soname.empty()) return {subject, options.soname, kMend};
   if (from_environment != nullptr) return {subject, from_environment, kMend};
   try {
     return {subject, "libOSMesa.so.8", kMend};
