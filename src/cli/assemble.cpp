@@ -26,8 +26,6 @@ std::string summary(const AssembleInput& input, const assembly::Result& result) 
   std::string text = fmt::format(
       "{} of {} placed, {}, {}\n", placed, counted(input.names.size() + input.bad.size(), "fragment"),
       counted(static_cast<std::size_t>(result.groups), "object"), counted(result.joins.size(), "join"));
-  const std::string missing = store::told(input.remains);
-  if (!missing.empty()) text += fmt::format("  {}\n", missing);
   for (const assembly::Join& join : result.joins) {
     text +=
         fmt::format("  {} + {}: {}, contact {:.4g}\n", input.names[join.a], input.names[join.b],
