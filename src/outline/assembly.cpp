@@ -4,22 +4,19 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <memory>
 #include <set>
 
 #include "core/parallel.hpp"
+#include "outline/detail/links.hpp"
 #include "outline/layout.hpp"
 #include "outline/shared_border.hpp"
 
 namespace rejoin::outline {
 namespace {
 
-// Borders touch within this many steps of the scale.
-constexpr double kTolerance = 1.5;
-// Candidates of a pair that are considered.
-constexpr std::size_t kCandidates = 4;
-// Candidates that say less than this are noise, nats.
-constexpr double kLeastHint = 1.5;
+using detail::Link;
+using detail::LinkedPieces;
+
 // Motions of a group that differ by less are one: radians, and share of the piece's size.
 constexpr double kSameTurn = 0.05;
 constexpr double kSameShift = 0.04;
@@ -30,15 +27,6 @@ constexpr double kShortestJoin = 8.0;
 // Information, in nats, at which a score is a half.
 constexpr double kHalfScore = 20.0;
 
-/// A join that may be used.
-struct Link {
-  std::size_t a;
-  std::size_t b;
-  Planar pose;  // b -> a
-  double information;
-  double length;
-};
-
 /// All links between two groups that move the second in about the same way.
 struct Bundle {
   std::size_t first = 0;
@@ -48,95 +36,14 @@ struct Bundle {
   std::vector<std::size_t> links;
 };
 
-std::vector<Silhouette> silhouettes(const std::vector<Piece>& pieces, double step) {
-  std::vector<std::unique_ptr<Silhouette>> made(pieces.size());
-  parallel_for(pieces.size(), 1, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i)
-      made[i] = std::make_unique<Silhouette>(pieces[i].outline, step, 1.0);
-  });
-  std::vector<Silhouette> all;
-  all.reserve(pieces.size());
-  for (auto& one : made) all.push_back(std::move(*one));
-  return all;
-}
-
-/// The candidates measured at one scale; those that overlap or say nothing are left out.
-std::vector<Link> links_at(const std::vector<Silhouette>& shapes, const std::vector<PairResult>& pairs,
-                           double tolerance, const AssemblyOptions& options) {
-  std::vector<std::pair<std::size_t, std::size_t>> names;
-  names.reserve(pairs.size());
-  for (std::size_t a = 0; a < shapes.size(); ++a)
-    for (std::size_t b = a + 1; b < shapes.size(); ++b) names.emplace_back(a, b);
-  std::vector<std::vector<Link>> found(pairs.size());
-  parallel_for(pairs.size(), 4, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const auto [a, b] = names[i];
-      for (std::size_t k = 0; k < pairs[i].candidates.size() && k < kCandidates; ++k) {
-        const Planar pose = settle(shapes[a], shapes[b], pairs[i].candidates[k].pose, tolerance, 3);
-        const Contact contact = measure_contact(shapes[a], shapes[b], pose, tolerance);
-        if (contact.information < kLeastHint) continue;
-        if (contact.intrusion > options.most_intrusion * contact.length) continue;
-        found[i].push_back({a, b, pose, contact.information, contact.length});
-      }
-    }
-  });
-  std::vector<Link> links;
-  for (const std::vector<Link>& some : found) links.insert(links.end(), some.begin(), some.end());
-  return links;
-}
-
-/// What the best links of each piece say together.
-double total_information(const std::vector<Link>& links, std::size_t pieces) {
-  std::vector<double> best(pieces, 0.0);
-  for (const Link& link : links) {
-    best[link.a] = std::max(best[link.a], link.information);
-    best[link.b] = std::max(best[link.b], link.information);
-  }
-  double sum = 0.0;
-  for (const double value : best) sum += value;
-  return sum;
-}
-
-/// The best candidates of all pairs only, to choose a scale by.
-std::vector<PairResult> best_of(const std::vector<PairResult>& pairs, std::size_t most) {
-  std::vector<std::pair<double, std::size_t>> order;
-  order.reserve(pairs.size());
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-    if (!pairs[i].candidates.empty()) order.emplace_back(-pairs[i].candidates[0].score, i);
-  std::sort(order.begin(), order.end());
-  std::vector<PairResult> best(pairs.size());
-  for (std::size_t k = 0; k < order.size() && k < most; ++k)
-    best[order[k].second].candidates = {pairs[order[k].second].candidates[0]};
-  return best;
-}
-
-/// The step, file units, at which the best candidates say most.
-double fitting_step(const std::vector<Piece>& pieces, const std::vector<PairResult>& pairs,
-                    const AssemblyOptions& options) {
-  const double length = median_perimeter(pieces);
-  const std::vector<PairResult> best = best_of(pairs, 2 * pieces.size());
-  double most = -1.0;
-  double step = length;
-  for (const double samples : options.samples) {
-    const double trial = length / samples;
-    const std::vector<Link> links = links_at(silhouettes(pieces, trial), best, kTolerance * trial, options);
-    const double information = total_information(links, pieces.size());
-    if (information <= most) continue;
-    most = information;
-    step = trial;
-  }
-  return step;
-}
-
 class Assembler {
  public:
-  Assembler(const std::vector<Silhouette>& shapes, std::vector<Link> links, double tolerance,
-            const AssemblyOptions& options)
-      : shapes_(shapes),
-        links_(std::move(links)),
-        tolerance_(tolerance),
+  Assembler(const LinkedPieces& pieces, const AssemblyOptions& options)
+      : shapes_(pieces.shapes),
+        links_(pieces.links),
+        tolerance_(pieces.tolerance),
         options_(options),
-        layout_(shapes, tolerance) {}
+        layout_(pieces.shapes, pieces.tolerance) {}
 
   void run(const Context& context) {
     grow(context);
@@ -267,32 +174,19 @@ class Assembler {
   }
 
   const std::vector<Silhouette>& shapes_;
-  std::vector<Link> links_;
+  const std::vector<Link>& links_;
   double tolerance_;
   const AssemblyOptions& options_;
   Layout layout_;
   std::set<std::array<std::size_t, 3>> refused_;
 };
 
-std::vector<std::vector<double>> similarity(const std::vector<Link>& links, std::size_t count) {
-  std::vector<std::vector<double>> matrix(count, std::vector<double>(count, 0.0));
-  std::map<std::pair<std::size_t, std::size_t>, double> best;
-  for (const Link& link : links) {
-    double& information = best[{link.a, link.b}];
-    if (link.information <= information) continue;
-    information = link.information;
-    matrix[link.a][link.b] = matrix[link.b][link.a] = link.length;
-  }
-  return matrix;
-}
-
 /// Whether the search for pairs proposed a join at about the pose in which the pieces lie now.
-bool proposed(const std::vector<Link>& links, const SharedBorder& border, const Layout& layout,
-              const std::vector<Silhouette>& shapes) {
-  const Silhouette& shape = shapes[border.b];
+bool proposed(const LinkedPieces& pieces, const SharedBorder& border, const Layout& layout) {
+  const Silhouette& shape = pieces.shapes[border.b];
   const glm::dvec2 centre = 0.5 * (shape.low + shape.high);
   const Planar placed = inverse(layout.pose(border.a)) * layout.pose(border.b);
-  return std::any_of(links.begin(), links.end(), [&](const Link& link) {
+  return std::any_of(pieces.links.begin(), pieces.links.end(), [&](const Link& link) {
     return link.a == border.a && link.b == border.b && angle_between(link.pose, placed) < kSameTurn &&
            glm::distance(link.pose(centre), placed(centre)) <
                kSameShift * glm::distance(shape.low, shape.high);
@@ -302,9 +196,8 @@ bool proposed(const std::vector<Link>& links, const SharedBorder& border, const 
 /// Reads the result off the layout.
 class Description {
  public:
-  Description(const std::vector<Piece>& pieces, const std::vector<Silhouette>& shapes,
-              const std::vector<Link>& links, const Layout& layout, double step)
-      : pieces_(pieces), shapes_(shapes), links_(links), layout_(layout), step_(step) {}
+  Description(const std::vector<Piece>& pieces, const LinkedPieces& linked, const Layout& layout)
+      : pieces_(pieces), linked_(linked), layout_(layout) {}
 
   Assembly assembly() {
     result_.placements.resize(layout_.size());
@@ -346,12 +239,12 @@ class Description {
     std::vector<Planar> poses;
     poses.reserve(layout_.size());
     for (std::size_t i = 0; i < layout_.size(); ++i) poses.push_back(layout_.pose(i));
-    for (const SharedBorder& border : shared_borders(pieces_, members, poses, kTolerance * step_)) {
+    for (const SharedBorder& border : shared_borders(pieces_, members, poses, linked_.tolerance)) {
       const auto measured = contacts.find({border.a, border.b});
       const Contact contact = measured == contacts.end() ? Contact{} : measured->second;
       const AssemblyJoin join{border.a, border.b, contact.information / (contact.information + kHalfScore),
-                              border.length, proposed(links_, border, layout_, shapes_)};
-      if (std::min(contact.length, border.length) < kShortestJoin * step_) {
+                              border.length, proposed(linked_, border, layout_)};
+      if (std::min(contact.length, border.length) < kShortestJoin * linked_.step) {
         result_.touches.push_back(join);
         continue;
       }
@@ -362,10 +255,8 @@ class Description {
   }
 
   const std::vector<Piece>& pieces_;
-  const std::vector<Silhouette>& shapes_;
-  const std::vector<Link>& links_;
+  const LinkedPieces& linked_;
   const Layout& layout_;
-  double step_;
   Assembly result_;
   double squares_ = 0.0;
   double length_ = 0.0;
@@ -376,14 +267,12 @@ class Description {
 Assembly assemble(const std::vector<Piece>& pieces, const std::vector<PairResult>& pairs,
                   const AssemblyOptions& options, const Context& context) {
   if (pieces.empty()) return {};
-  const double step = fitting_step(pieces, pairs, options);
-  const std::vector<Silhouette> shapes = silhouettes(pieces, step);
-  const std::vector<Link> links = links_at(shapes, pairs, kTolerance * step, options);
-  Assembler assembler(shapes, links, kTolerance * step, options);
+  const LinkedPieces linked = detail::link_pieces(pieces, pairs, options);
+  Assembler assembler(linked, options);
   assembler.run(context);
-  for (std::size_t g = 0; g < pieces.size(); ++g) assembler.layout().spread_error(g, kTolerance * step, 4);
-  Assembly assembly = Description(pieces, shapes, links, assembler.layout(), step).assembly();
-  assembly.similarity = similarity(links, pieces.size());
+  for (std::size_t g = 0; g < pieces.size(); ++g) assembler.layout().spread_error(g, linked.tolerance, 4);
+  Assembly assembly = Description(pieces, linked, assembler.layout()).assembly();
+  assembly.similarity = detail::similarity(linked);
   assembly.cancelled = context.cancelled();
   return assembly;
 }

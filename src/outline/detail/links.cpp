@@ -1,0 +1,125 @@
+#include "outline/detail/links.hpp"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "core/parallel.hpp"
+
+namespace rejoin::outline::detail {
+namespace {
+
+// Borders touch within this many steps of the scale.
+constexpr double kTolerance = 1.5;
+// Candidates of a pair that are considered.
+constexpr std::size_t kCandidates = 4;
+// Candidates that say less than this are noise, nats.
+constexpr double kLeastHint = 1.5;
+
+std::vector<Silhouette> silhouettes(const std::vector<Piece>& pieces, double step) {
+  std::vector<std::unique_ptr<Silhouette>> made(pieces.size());
+  parallel_for(pieces.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      made[i] = std::make_unique<Silhouette>(pieces[i].outline, step, 1.0);
+  });
+  std::vector<Silhouette> all;
+  all.reserve(pieces.size());
+  for (auto& one : made) all.push_back(std::move(*one));
+  return all;
+}
+
+/// The candidates measured at one scale; those that overlap or say nothing are left out.
+std::vector<Link> links_at(const std::vector<Silhouette>& shapes, const std::vector<PairResult>& pairs,
+                           double tolerance, const AssemblyOptions& options) {
+  std::vector<std::pair<std::size_t, std::size_t>> names;
+  names.reserve(pairs.size());
+  for (std::size_t a = 0; a < shapes.size(); ++a)
+    for (std::size_t b = a + 1; b < shapes.size(); ++b) names.emplace_back(a, b);
+  std::vector<std::vector<Link>> found(pairs.size());
+  parallel_for(pairs.size(), 4, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const auto [a, b] = names[i];
+      for (std::size_t k = 0; k < pairs[i].candidates.size() && k < kCandidates; ++k) {
+        const Planar pose = settle(shapes[a], shapes[b], pairs[i].candidates[k].pose, tolerance, 3);
+        const Contact contact = measure_contact(shapes[a], shapes[b], pose, tolerance);
+        if (contact.information < kLeastHint) continue;
+        if (contact.intrusion > options.most_intrusion * contact.length) continue;
+        found[i].push_back({a, b, pose, contact.information, contact.length});
+      }
+    }
+  });
+  std::vector<Link> links;
+  for (const std::vector<Link>& some : found) links.insert(links.end(), some.begin(), some.end());
+  return links;
+}
+
+/// What the best links of each piece say together.
+double total_information(const std::vector<Link>& links, std::size_t pieces) {
+  std::vector<double> best(pieces, 0.0);
+  for (const Link& link : links) {
+    best[link.a] = std::max(best[link.a], link.information);
+    best[link.b] = std::max(best[link.b], link.information);
+  }
+  double sum = 0.0;
+  for (const double value : best) sum += value;
+  return sum;
+}
+
+/// The best candidates of all pairs only, to choose a scale by.
+std::vector<PairResult> best_of(const std::vector<PairResult>& pairs, std::size_t most) {
+  std::vector<std::pair<double, std::size_t>> order;
+  order.reserve(pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (!pairs[i].candidates.empty()) order.emplace_back(-pairs[i].candidates[0].score, i);
+  std::sort(order.begin(), order.end());
+  std::vector<PairResult> best(pairs.size());
+  for (std::size_t k = 0; k < order.size() && k < most; ++k)
+    best[order[k].second].candidates = {pairs[order[k].second].candidates[0]};
+  return best;
+}
+
+/// The step, file units, at which the best candidates say most.
+double fitting_step(const std::vector<Piece>& pieces, const std::vector<PairResult>& pairs,
+                    const AssemblyOptions& options) {
+  const double length = median_perimeter(pieces);
+  const std::vector<PairResult> best = best_of(pairs, 2 * pieces.size());
+  double most = -1.0;
+  double step = length;
+  for (const double samples : options.samples) {
+    const double trial = length / samples;
+    const std::vector<Link> links = links_at(silhouettes(pieces, trial), best, kTolerance * trial, options);
+    const double information = total_information(links, pieces.size());
+    if (information <= most) continue;
+    most = information;
+    step = trial;
+  }
+  return step;
+}
+
+}  // namespace
+
+LinkedPieces link_pieces(const std::vector<Piece>& pieces, const std::vector<PairResult>& pairs,
+                         const AssemblyOptions& options) {
+  LinkedPieces result;
+  result.step = fitting_step(pieces, pairs, options);
+  result.tolerance = kTolerance * result.step;
+  result.shapes = silhouettes(pieces, result.step);
+  result.links = links_at(result.shapes, pairs, result.tolerance, options);
+  return result;
+}
+
+std::vector<std::vector<double>> similarity(const LinkedPieces& pieces) {
+  const std::size_t count = pieces.shapes.size();
+  std::vector<std::vector<double>> matrix(count, std::vector<double>(count, 0.0));
+  std::map<std::pair<std::size_t, std::size_t>, double> best;
+  for (const Link& link : pieces.links) {
+    double& information = best[{link.a, link.b}];
+    if (link.information <= information) continue;
+    information = link.information;
+    matrix[link.a][link.b] = matrix[link.b][link.a] = link.length;
+  }
+  return matrix;
+}
+
+}  // namespace rejoin::outline::detail

@@ -1,0 +1,39 @@
+/// The joins that an assembly may use.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "outline/assembly.hpp"
+#include "outline/contact.hpp"
+
+namespace rejoin::outline::detail {
+
+/// A candidate of a pair that says something.
+struct Link {
+  std::size_t a;
+  std::size_t b;
+  Planar pose;         ///< b -> a
+  double information;  ///< nats
+  double length;       ///< of the contact, file units
+};
+
+/// Pieces and their links at one scale.
+struct LinkedPieces {
+  double step = 0.0;               ///< of the scale, file units
+  double tolerance = 0.0;          ///< within which borders touch, file units
+  std::vector<Silhouette> shapes;  ///< one a piece
+  std::vector<Link> links;         ///< sorted by a, then b
+};
+
+/// Measures the candidates of all pairs at that one of options.samples at which the best of them say most.  Those that
+/// overlap or say nothing are left out.
+/// \param pieces  at least one
+/// \param pairs   results for (0, 1), (0, 2) .. (0, n - 1), (1, 2) ..
+LinkedPieces link_pieces(const std::vector<Piece>& pieces, const std::vector<PairResult>& pairs,
+                         const AssemblyOptions& options);
+
+/// Length of the most telling link of each pair; 0 if there is none.
+std::vector<std::vector<double>> similarity(const LinkedPieces& pieces);
+
+}  // namespace rejoin::outline::detail
