@@ -19,9 +19,9 @@ struct AlignOptions {
   int iterations = 12;
   int most_samples = 400;  ///< of B's samples; 0: all
   bool core_only = false;  ///< leave out what is next to another facet: worn edges lie
-  int facet_b = -1;        ///< only samples of this facet of B; -1: of all its broken surface
-  bool quick = false;      ///< nearest points are looked up in tables: they are nearly the nearest
-  int half = -1;           ///< 0 or 1: every other of B's broken samples: the two share none; -1: all
+  int facet_b = -1;    ///< only samples of this facet of B (match/cuts.hpp); -1: of all its broken surface
+  bool quick = false;  ///< nearest points are looked up in tables: they are nearly the nearest
+  int half = -1;       ///< 0 or 1: every other of B's broken samples: the two share none; -1: all
 };
 
 /// Two prepared fragments, indexed for alignment.  Poses are B -> A, both relative to their mesh's origin.

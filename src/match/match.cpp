@@ -1,11 +1,14 @@
 #include "match/match.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "core/stopwatch.hpp"
 #include "match/align.hpp"
+#include "match/cuts.hpp"
 #include "match/esa_search.hpp"
 #include "match/refine.hpp"
 #include "match/stability.hpp"
@@ -20,23 +23,26 @@ constexpr std::size_t kGlance = 2;  // rounds of alignment after which poses are
 constexpr double kFacetSpread_deg =
     25.0;  // how far a facet's mean normal may lie from the direction that a user sees
 
-/// Facets that face one of the directions, or the one that comes closest.
+/// Facets of both cuts that face one of the directions, or the one of each cut that comes closest.
 std::vector<int> facets_facing(const Fragment& fragment, const std::vector<glm::dvec3>& directions,
                                double tolerance_deg) {
   std::vector<int> list;
+  const FacetNumbers numbers = facet_numbers(fragment);
+  const std::array cuts{std::pair(0, numbers.creased), std::pair(numbers.creased, numbers.end)};
   const double limit = std::cos((tolerance_deg + kFacetSpread_deg) * kDegree);
   for (const auto& direction : directions) {
-    int closest = -1;
-    double best = -2.0;
-    for (int f = 0; f < static_cast<int>(fragment.facets.facets.size()); ++f) {
-      const double cosine =
-          glm::dot(fragment.facets.facets[static_cast<std::size_t>(f)].normal, glm::normalize(direction));
-      if (cosine > limit) list.push_back(f);
-      if (cosine <= best) continue;
-      best = cosine;
-      closest = f;
+    for (const auto& [first, end] : cuts) {
+      int closest = -1;
+      double best = -2.0;
+      for (int f = first; f < end; ++f) {
+        const double cosine = glm::dot(facet(fragment, f).normal, glm::normalize(direction));
+        if (cosine > limit) list.push_back(f);
+        if (cosine <= best) continue;
+        best = cosine;
+        closest = f;
+      }
+      if (closest >= 0) list.push_back(closest);
     }
-    if (closest >= 0) list.push_back(closest);
   }
   std::sort(list.begin(), list.end());
   list.erase(std::unique(list.begin(), list.end()), list.end());
@@ -45,7 +51,7 @@ std::vector<int> facets_facing(const Fragment& fragment, const std::vector<glm::
 
 std::vector<int> allowed_facets(const Fragment& fragment, const std::vector<int>& chosen,
                                 const std::vector<glm::dvec3>& directions, const Options& options) {
-  if (!chosen.empty()) return chosen;
+  if (!chosen.empty()) return in_both_cuts(fragment, chosen);
   return facets_facing(fragment, directions, options.tolerance_deg);
 }
 
@@ -111,8 +117,8 @@ void give_up(const Fragment& a, const Fragment& b, const std::vector<Hypothesis>
   if (hypotheses.empty()) return;
   const Hypothesis& best = hypotheses.front();
   Candidate candidate = unmeasured(a, b, best.pose, best.evidence, best.strength);
-  candidate.facet_a = best.facet_a;
-  candidate.facet_b = best.facet_b;
+  candidate.facet_a = seen_facet(a, best.facet_a);
+  candidate.facet_b = seen_facet(b, best.facet_b);
   result.candidates.push_back(candidate);
 }
 
@@ -162,8 +168,8 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
   context.report("verify", 0.8);
   for (const auto& hypothesis : hypotheses) {
     Candidate candidate = verifier.candidate(hypothesis.pose, hypothesis.evidence, hypothesis.strength);
-    candidate.facet_a = hypothesis.facet_a;
-    candidate.facet_b = hypothesis.facet_b;
+    candidate.facet_a = seen_facet(a, hypothesis.facet_a);
+    candidate.facet_b = seen_facet(b, hypothesis.facet_b);
     result.candidates.push_back(candidate);
   }
   if (!hypotheses.empty() && !context.cancelled()) {

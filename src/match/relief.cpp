@@ -54,9 +54,9 @@ void take_slopes(ReliefMap& map, float sign) {
 
 }  // namespace
 
-FacetPatch cut_patch(const mesh::Mesh& mesh, const std::vector<int>& facet_of_face,
-                     const mesh::Segmentation& segmentation, int facet) {
-  const mesh::Facet& source = segmentation.facets[static_cast<std::size_t>(facet)];
+FacetPatch cut_patch(const mesh::Mesh& mesh, const std::vector<int>& facet_of_face, const mesh::Cut& cut,
+                     int facet) {
+  const mesh::Facet& source = cut.facets[static_cast<std::size_t>(facet)];
   FacetPatch patch;
   patch.frame = glm::dmat3(source.along, glm::cross(source.normal, source.along), source.normal);
   patch.centre = source.centre;

@@ -23,8 +23,8 @@ struct FacetPatch {
 };
 
 /// \param facet_of_face  what mesh::facet_of_faces() gave for `mesh`
-FacetPatch cut_patch(const mesh::Mesh& mesh, const std::vector<int>& facet_of_face,
-                     const mesh::Segmentation& segmentation, int facet);
+FacetPatch cut_patch(const mesh::Mesh& mesh, const std::vector<int>& facet_of_face, const mesh::Cut& cut,
+                     int facet);
 
 /// Slopes of a facet's relief on a regular grid.
 struct ReliefMap {

@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "core/parallel.hpp"
+#include "match/cuts.hpp"
 
 namespace rejoin::match {
 namespace {
@@ -87,11 +88,6 @@ Rigid pose_of_peak(const FacetPatch& a, const FacetPatch& b, const ReliefMap& ma
   return from_a * tilt * in_plane * inverse(from_b);
 }
 
-struct Task {
-  int facet_a;
-  int facet_b;
-};
-
 bool better(const SweepHit& x, const SweepHit& y) {
   if (x.agreement.score != y.agreement.score) return x.agreement.score > y.agreement.score;
   if (x.facet_a != y.facet_a) return x.facet_a < y.facet_a;
@@ -122,9 +118,22 @@ std::vector<SweepHit> distinct(std::vector<SweepHit> hits, double near, const gl
   return kept;
 }
 
+/// A facet that may join.
+struct SweptFacet {
+  int facet = -1;  ///< match/cuts.hpp
+  FacetPatch patch;
+};
+
+struct Task {
+  const SweptFacet* a;
+  const SweptFacet* b;
+};
+
 /// All shifts of b's patch on a's at the given turns.
-SweepResult correlate_turns(const FacetPatch& a, const FacetPatch& b, const Task& task, double pitch,
-                            const std::vector<double>& turns, int keep, const Context& context) {
+SweepResult correlate_turns(const Task& task, double pitch, const std::vector<double>& turns, int keep,
+                            const Context& context) {
+  const FacetPatch& a = task.a->patch;
+  const FacetPatch& b = task.b->patch;
   const ReliefMap map_a = relief_of(a, pitch);
   std::vector<ReliefMap> maps_b;
   for (const double turn : turns) {
@@ -136,7 +145,7 @@ SweepResult correlate_turns(const FacetPatch& a, const FacetPatch& b, const Task
   for (const std::size_t t : correlator.cheapest_order(maps_b)) {
     if (context.cancelled()) break;
     for (const Agreement& peak : correlator.peaks(maps_b[t])) {
-      result.hits.push_back({task.facet_a, task.facet_b, turns[t], pitch, peak,
+      result.hits.push_back({task.a->facet, task.b->facet, turns[t], pitch, peak,
                              pose_of_peak(a, b, map_a, maps_b[t], peak, turns[t])});
     }
     result.evaluations += correlator.shifts();
@@ -150,55 +159,59 @@ double turn_step(const FacetPatch& a, const FacetPatch& b, double pitch, double 
   return std::clamp(2.0 * step_px * pitch / std::min(a.length, b.length), 0.02, 0.25);
 }
 
-std::vector<int> candidates(const Fragment& fragment, const std::vector<int>& chosen) {
-  std::vector<int> list;
+/// The facets of one cut that may join.
+/// \param first  number of the cut's first facet
+std::vector<SweptFacet> candidates(const Fragment& fragment, const mesh::Cut& cut, int first,
+                                   const std::vector<int>& chosen) {
+  if (cut.facets.empty()) return {};
   double largest = 0.0;
-  for (const auto& facet : fragment.facets.facets) {
+  for (const auto& facet : cut.facets) {
     if (facet.fracture) largest = std::max(largest, facet.area);
   }
-  for (int f = 0; f < static_cast<int>(fragment.facets.facets.size()); ++f) {
-    const auto& facet = fragment.facets.facets[static_cast<std::size_t>(f)];
+  const auto facet_of_face = mesh::facet_of_faces(fragment.facets, cut, fragment.coarse);
+  std::vector<SweptFacet> list;
+  for (int f = 0; f < static_cast<int>(cut.facets.size()); ++f) {
+    const auto& facet = cut.facets[static_cast<std::size_t>(f)];
     const bool wanted = chosen.empty() ? facet.fracture && facet.area > kSmallFacet * largest
-                                       : std::find(chosen.begin(), chosen.end(), f) != chosen.end();
-    if (wanted) list.push_back(f);
+                                       : std::find(chosen.begin(), chosen.end(), first + f) != chosen.end();
+    if (!wanted) continue;
+    list.push_back({first + f, cut_patch(fragment.coarse, facet_of_face, cut, f)});
+    if (list.back().patch.points.empty()) list.pop_back();
   }
   return list;
 }
 
-std::vector<FacetPatch> patches_of(const Fragment& fragment, const std::vector<int>& list) {
-  const auto facet_of_face = mesh::facet_of_faces(fragment.facets, fragment.coarse);
-  std::vector<FacetPatch> patches;
-  patches.reserve(list.size());
-  for (const int f : list) patches.push_back(cut_patch(fragment.coarse, facet_of_face, fragment.facets, f));
-  return patches;
+void add_tasks(const std::vector<SweptFacet>& a, const std::vector<SweptFacet>& b, std::vector<Task>& tasks) {
+  for (const SweptFacet& x : a) {
+    for (const SweptFacet& y : b) tasks.push_back({&x, &y});
+  }
 }
 
 }  // namespace
 
 SweepResult sweep(const Fragment& a, const Fragment& b, const SweepOptions& options, const Context& context) {
-  const auto list_a = candidates(a, options.facets_a);
-  const auto list_b = candidates(b, options.facets_b);
-  const auto patches_a = patches_of(a, list_a);
-  const auto patches_b = patches_of(b, list_b);
+  const auto seen_a = candidates(a, a.facets, 0, options.facets_a);
+  const auto seen_b = candidates(b, b.facets, 0, options.facets_b);
+  const auto creased_a = candidates(a, a.facets.creased, facet_numbers(a).creased, options.facets_a);
+  const auto creased_b = candidates(b, b.facets.creased, facet_numbers(b).creased, options.facets_b);
+  std::vector<Task> tasks;
+  add_tasks(seen_a, seen_b, tasks);
+  add_tasks(creased_a, creased_b, tasks);
   const double resolution = std::max(a.resolution, b.resolution);
-  const std::size_t pairs = patches_a.size() * patches_b.size();
-  std::vector<SweepResult> parts(pairs);
+  std::vector<SweepResult> parts(tasks.size());
   std::mutex reporting;
   std::size_t done = 0;
-  parallel_for(pairs, 1, [&](std::size_t first, std::size_t last) {
+  parallel_for(tasks.size(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
       if (context.cancelled()) return;
-      const std::size_t i = k / patches_b.size();
-      const std::size_t j = k % patches_b.size();
-      const FacetPatch& pa = patches_a[i];
-      const FacetPatch& pb = patches_b[j];
-      if (pa.points.empty() || pb.points.empty()) continue;
+      const FacetPatch& pa = tasks[k].a->patch;
+      const FacetPatch& pb = tasks[k].b->patch;
       const double pitch = pitch_for(pa, pb, resolution);
       const double step = turn_step(pa, pb, pitch, options.turn_step_px);
-      parts[k] = correlate_turns(pa, pb, {list_a[i], list_b[j]}, pitch, turns_for(pa, pb, step),
-                                 options.per_pair_of_facets, context);
+      parts[k] =
+          correlate_turns(tasks[k], pitch, turns_for(pa, pb, step), options.per_pair_of_facets, context);
       const std::lock_guard lock(reporting);
-      context.report("search", static_cast<double>(++done) / static_cast<double>(pairs));
+      context.report("search", static_cast<double>(++done) / static_cast<double>(tasks.size()));
     }
   });
   SweepResult result;

@@ -12,7 +12,7 @@ namespace rejoin::match {
 
 /// One peak of the sweep.
 struct SweepHit {
-  int facet_a = -1;
+  int facet_a = -1;  ///< match/cuts.hpp
   int facet_b = -1;
   double turn_rad = 0;  ///< of B's patch about A's facet normal, after the half turn
   double pitch = 0;     ///< of the maps, mesh units
@@ -21,7 +21,7 @@ struct SweepHit {
 };
 
 struct SweepOptions {
-  std::vector<int> facets_a;  ///< facets that may join; empty: all fracture facets
+  std::vector<int> facets_a;  ///< facets that may join (match/cuts.hpp); empty: all fracture facets
   std::vector<int> facets_b;
   double turn_step_px = 2.0;    ///< how far the end of the shorter facet moves between turns, pixels
   int per_pair_of_facets = 24;  ///< peaks kept a pair of facets
@@ -33,7 +33,7 @@ struct SweepResult {
   long evaluations = 0;        ///< poses (turn and shift) whose agreement was computed
 };
 
-/// Correlates all pairs of facets.  Deterministic for any number of threads.
+/// Correlates all pairs of facets of the same cut.  Deterministic for any number of threads.
 SweepResult sweep(const Fragment& a, const Fragment& b, const SweepOptions& options, const Context& context);
 
 }  // namespace rejoin::match

@@ -7,6 +7,7 @@
 #include <queue>
 
 #include "core/parallel.hpp"
+#include "mesh/detail/creases.hpp"
 #include "mesh/detail/facet_table.hpp"
 #include "mesh/detail/grow.hpp"
 #include "mesh/neighbours.hpp"
@@ -23,7 +24,8 @@ constexpr float kWallLow = 0.5F;        // of the wall thickness
 constexpr float kWallHigh = 1.8F;
 constexpr float kWallSquare = 0.8F;   // the opposite wall may lean by 37 degrees
 constexpr double kStripRadius = 0.7;  // of the wall thickness
-constexpr float kStripCone = 28.0F;   // degrees: a strip ends where the break turns a corner
+constexpr float kCone = 35.0F;        // degrees between a facet's mean normal and its others
+constexpr float kStripCone = 28.0F;   // the same: a strip ends where the break turns a corner
 constexpr double kStripOfSize =
     0.125;  // of the piece: the break of a thicker wall is as wide as a solid's side
 constexpr double kSamplesPerWall = 7.0;  // across a sherd's fracture strip
@@ -181,22 +183,23 @@ std::size_t smallest_facet(const Segmentation& s) {
   return std::max<std::size_t>(20, s.samples.size() / 300);
 }
 
-void set_facets(Segmentation& s, std::vector<std::vector<std::uint32_t>> members) {
-  s.facets.clear();
+Cut cut_into(const Segmentation& s, std::vector<std::vector<std::uint32_t>> members) {
+  Cut cut;
   for (auto& samples : members) {
     Facet facet;
     facet.fracture = s.surface[samples.front()] == Surface::Fracture;
     facet.samples = std::move(samples);
     measure(facet, s);
-    s.facets.push_back(std::move(facet));
+    cut.facets.push_back(std::move(facet));
   }
-  std::stable_sort(s.facets.begin(), s.facets.end(), [](const Facet& a, const Facet& b) {
+  std::stable_sort(cut.facets.begin(), cut.facets.end(), [](const Facet& a, const Facet& b) {
     return a.fracture != b.fracture ? a.fracture : a.area > b.area;
   });
-  s.facet_of_sample.assign(s.samples.size(), -1);
-  for (std::size_t f = 0; f < s.facets.size(); ++f) {
-    for (const auto i : s.facets[f].samples) s.facet_of_sample[i] = static_cast<int>(f);
+  cut.facet_of_sample.assign(s.samples.size(), -1);
+  for (std::size_t f = 0; f < cut.facets.size(); ++f) {
+    for (const auto i : cut.facets[f].samples) cut.facet_of_sample[i] = static_cast<int>(f);
   }
+  return cut;
 }
 
 }  // namespace detail
@@ -226,16 +229,21 @@ Segmentation segment(const Mesh& mesh, double size) {
   s.surface.assign(s.samples.size(), Surface::Fracture);
   if (thin) classify_thin(s, rays, near);
 
-  detail::GrowOptions options;
-  options.spacing = s.samples.spacing;
-  if (thin && s.wall_thickness < kStripOfSize * size) options.cone_deg = kStripCone;
-  options.smallest = detail::smallest_facet(s);
-  detail::set_facets(s, detail::grow_facets(s.samples.points, thin ? strip_normals(s) : s.normals, s.surface,
-                                            near, options));
+  const std::vector<glm::vec3> normals = thin ? strip_normals(s) : s.normals;
+  const detail::Ground ground{s.samples.points, normals, s.surface, near, s.samples.spacing};
+  const bool strips = thin && s.wall_thickness < kStripOfSize * size;
+  const std::size_t smallest = detail::smallest_facet(s);
+  static_cast<Cut&>(s) =
+      detail::cut_into(s, detail::grow_facets(ground, strips ? kStripCone : kCone, smallest));
+  if (!thin) s.creased = detail::cut_into(s, detail::facets_between_creases(ground, smallest));
   return s;
 }
 
 std::vector<int> facet_of_faces(const Segmentation& segmentation, const Mesh& mesh) {
+  return facet_of_faces(segmentation, segmentation, mesh);
+}
+
+std::vector<int> facet_of_faces(const Segmentation& segmentation, const Cut& cut, const Mesh& mesh) {
   const PointIndex index(segmentation.samples.points);
   const auto normals = face_normals(mesh);
   std::vector<int> facets(mesh.faces.size(), -1);
@@ -247,7 +255,7 @@ std::vector<int> facet_of_faces(const Segmentation& segmentation, const Mesh& me
       index.nearest(middle, 4, near);
       for (const auto i : near) {
         if (glm::dot(segmentation.normals[i], normals[f]) < 0.0F) continue;
-        facets[f] = segmentation.facet_of_sample[i];
+        facets[f] = cut.facet_of_sample[i];
         break;
       }
     }

@@ -26,16 +26,22 @@ struct Facet {
 /// Which surface a sample belongs to.
 enum class Surface : std::uint8_t { Original, Fracture };
 
-struct Segmentation {
+/// A surface cut into facets.
+struct Cut {
+  std::vector<int> facet_of_sample;  ///< index into facets, -1 where none
+  std::vector<Facet> facets;         ///< fracture facets first, largest first in each class
+};
+
+/// Samples of a surface and their facets.
+struct Segmentation : Cut {
   Samples samples;                 ///< of the segmented mesh
   std::vector<glm::vec3> normals;  ///< per sample, smoothed over about three spacings
   std::vector<Surface> surface;    ///< per sample
   std::vector<float>
       roughness;  ///< per sample: rms distance from the local quadric, as a fraction of its radius
-  std::vector<int> facet_of_sample;  ///< index into facets, -1 where none
-  std::vector<Facet> facets;         ///< fracture facets first, largest first in each class
-  double wall_thickness = 0;         ///< most frequent wall thickness, mesh units; 0 for a solid piece
-  double sample_area = 0;            ///< surface that a sample stands for, squared mesh units
+  Cut creased;  ///< solid pieces: cut once more, along the creases; no facets in thin walls and painted facets
+  double wall_thickness = 0;  ///< most frequent wall thickness, mesh units; 0 for a solid piece
+  double sample_area = 0;     ///< surface that a sample stands for, squared mesh units
 };
 
 /// Segments a surface.
@@ -43,7 +49,8 @@ struct Segmentation {
 /// Thin-walled pieces: a point whose inward ray meets the opposite wall from behind at 0.5 to 1.8 wall
 /// thicknesses is original surface, the rest is fracture.  Solid pieces: every facet counts as fracture, as
 /// roughness does not tell a break from a carved or weathered surface.  Facets grow over smoothed normals from
-/// the flattest places. \pre the mesh has faces \source papaioannou 2002,
+/// the flattest places, until they have bent by an angle; of solid pieces they are cut along the creases, too, as a break that
+/// one of the cuts parts is often whole in the other. \pre the mesh has faces \source papaioannou 2002,
 /// section 6.2 (mean normals of the most irregular compact facets)
 /// \param size  diameter(mesh)
 Segmentation segment(const Mesh& mesh, double size);
@@ -51,6 +58,8 @@ Segmentation segment(const Mesh& mesh);
 
 /// For every face of `mesh` (the segmented one, or another level of detail of it) the facet of the nearest
 /// sample, or -1.
+/// \param cut  `segmentation` itself, or its other cut
+std::vector<int> facet_of_faces(const Segmentation& segmentation, const Cut& cut, const Mesh& mesh);
 std::vector<int> facet_of_faces(const Segmentation& segmentation, const Mesh& mesh);
 
 }  // namespace rejoin::mesh

@@ -82,7 +82,8 @@ std::optional<Segmentation> painted_facets(const Segmentation& segmentation, con
   for (auto& [key, samples] : groups) {
     if (samples.size() >= detail::smallest_facet(result)) members.push_back(std::move(samples));
   }
-  detail::set_facets(result, std::move(members));
+  static_cast<Cut&>(result) = detail::cut_into(result, std::move(members));
+  result.creased = {};
   return result;
 }
 

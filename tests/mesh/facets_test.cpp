@@ -148,6 +148,74 @@ TEST(Facets, BreaksThatMeetAtABluntEdgeAreTwo) {
   EXPECT_EQ(up, 2);
 }
 
+/// Facets of a cut that look up (+z).
+std::vector<const Facet*> looking_up(const Cut& cut) {
+  std::vector<const Facet*> list;
+  for (const Facet& facet : cut.facets) {
+    if (facet.normal.z > 0.5) list.push_back(&facet);
+  }
+  return list;
+}
+
+/// A box 60 wide and deep whose top is a part of a cylinder that leans by up to `lean_deg` to both sides.
+Mesh barrel(double lean_deg) {
+  const double radius = 30.0 / std::sin(lean_deg * kPi / 180.0);
+  return box({60, 60, 30}, 30, [&](float x, float) {
+    const double aside = static_cast<double>(x) - 30.0;
+    return static_cast<float>(std::sqrt(radius * radius - aside * aside) -
+                              std::sqrt(radius * radius - 900.0));
+  });
+}
+
+TEST(Creases, SidesThatMeetAtABluntRidgeAreTwoThatTheConeTakesForOne) {
+  const double lean = 14.0 * kPi / 180.0;  // to both sides of the ridge: a bend of 28 degrees
+  const Mesh roof = box({60, 60, 30}, 30, [&](float x, float) {
+    return (30.0F - std::abs(x - 30.0F)) * static_cast<float>(std::tan(lean));
+  });
+  const Segmentation s = segment(roof);
+  EXPECT_EQ(looking_up(s).size(), 1U);
+  const auto sides = looking_up(s.creased);
+  ASSERT_EQ(sides.size(), 2U);
+  for (const Facet* side : sides) {
+    EXPECT_NEAR(side->area, 60 * 30 / std::cos(lean), 0.2 * 60 * 30);  // the edge goes to one of them
+    EXPECT_NEAR(std::abs(side->normal.x), std::sin(lean), std::sin(3.0 * kPi / 180));
+  }
+}
+
+TEST(Creases, SmoothBendIsOneFacetUntilItsNormalsSpreadTooFar) {
+  EXPECT_EQ(looking_up(segment(barrel(30.0)).creased).size(), 1U);
+  // sin(x)/x of an arc of +-60 degrees is 0.83: its normals spread by 0.17, those of a cap of 30 degrees by 0.067.
+  EXPECT_GT(looking_up(segment(barrel(60.0)).creased).size(), 1U);
+}
+
+TEST(Creases, WavesAreNone) {
+  // Slopes up to 0.35 to and fro: neighbouring flanks bend by up to 39 degrees, but as much down as up along their borders.
+  const auto waves = [](float x, float y) { return 0.7F * std::sin(0.5F * x) * std::sin(0.5F * y + 0.3F); };
+  const Segmentation s = segment(box({60, 60, 30}, 60, waves));
+  const auto top = looking_up(s.creased);
+  ASSERT_EQ(top.size(), 1U);
+  EXPECT_GT(top.front()->area, 0.9 * 60 * 60);
+}
+
+TEST(Creases, EverySampleIsInOneFacetAtMost) {
+  const Segmentation s = segment(barrel(60.0));
+  std::vector<int> seen(s.samples.size(), -1);
+  std::size_t in_facets = 0;
+  for (std::size_t f = 0; f < s.creased.facets.size(); ++f) {
+    for (const auto i : s.creased.facets[f].samples) {
+      EXPECT_EQ(seen[i], -1);
+      seen[i] = static_cast<int>(f);
+      ++in_facets;
+    }
+  }
+  EXPECT_EQ(seen, s.creased.facet_of_sample);
+  EXPECT_GT(in_facets, s.samples.size() * 95 / 100);
+}
+
+TEST(Creases, ThinWallsHaveNoSecondCut) {
+  EXPECT_TRUE(segment(shell(60, 40)).creased.facets.empty());
+}
+
 TEST(Facets, RoughSideIsTheRoughest) {
   const auto rough = [](float x, float y) {
     return 0.25F * std::sin(2.1F * x + 0.3F) * std::sin(1.7F * y + x);
@@ -247,6 +315,7 @@ TEST(PaintedFacets, OneSideOfABoxInTwoColoursIsTwoFractureFacets) {
   EXPECT_NEAR(fracture[1]->area, 10 * 30, 0.12 * 300);
   EXPECT_GT(fracture[1]->normal.z, 0.99);
   EXPECT_EQ(s->facets.size(), 2U + 5U);  // the other sides are original surface now
+  EXPECT_TRUE(s->creased.facets.empty());
   for (const std::uint32_t i : fracture[0]->samples) EXPECT_EQ(s->surface[i], Surface::Fracture);
 }
 

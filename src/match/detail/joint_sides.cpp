@@ -18,7 +18,7 @@ Side side_of(const Fragment& fragment, double edge_radius) {
   side.body.normals = s.normals;
   side.body_index = std::make_unique<mesh::PointIndex>(side.body.points);
   const mesh::Neighbours neighbours(side.body.points, static_cast<float>(edge_radius));
-  side.broken_of_facet.resize(s.facets.size());
+  side.broken_of_facet.resize(s.facets.size() + s.creased.facets.size());
   std::vector<std::uint32_t> near;
   for (std::size_t i = 0; i < s.samples.size(); ++i) {
     if (s.surface[i] != mesh::Surface::Fracture) continue;
@@ -26,6 +26,10 @@ Side side_of(const Fragment& fragment, double edge_radius) {
     side.all_broken.push_back(number);
     if (s.facet_of_sample[i] >= 0) {
       side.broken_of_facet[static_cast<std::size_t>(s.facet_of_sample[i])].push_back(number);
+    }
+    if (!s.creased.facets.empty() && s.creased.facet_of_sample[i] >= 0) {
+      const auto facet = s.facets.size() + static_cast<std::size_t>(s.creased.facet_of_sample[i]);
+      side.broken_of_facet[facet].push_back(number);
     }
     side.broken.points.push_back(s.samples.points[i]);
     side.broken.normals.push_back(s.normals[i]);

@@ -54,7 +54,7 @@ struct Side {
   std::unique_ptr<mesh::PointIndex> body_index;
   std::vector<std::uint32_t> all_walls;                     ///< 0, 1, ... into `walls`
   std::vector<std::uint32_t> all_broken;                    ///< 0, 1, ... into `broken`
-  std::vector<std::vector<std::uint32_t>> broken_of_facet;  ///< into `broken`
+  std::vector<std::vector<std::uint32_t>> broken_of_facet;  ///< into `broken`; by match/cuts.hpp's numbers
   double sample_area = 0;
 
   /// The broken samples of one facet; of all for -1.

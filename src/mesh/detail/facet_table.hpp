@@ -14,6 +14,6 @@ std::size_t smallest_facet(const Segmentation& segmentation);
 
 /// Measures the facets and numbers them: fracture first, largest first in each class.
 /// \param members  samples of each facet, none empty; a facet's class is that of its first
-void set_facets(Segmentation& segmentation, std::vector<std::vector<std::uint32_t>> members);
+Cut cut_into(const Segmentation& segmentation, std::vector<std::vector<std::uint32_t>> members);
 
 }  // namespace rejoin::mesh::detail
