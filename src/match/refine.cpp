@@ -48,7 +48,7 @@ std::vector<Pass> passes(double tolerance, int most) {
        true,
        3 * kept},
       {{6.0 * t, 2.0 * t, 20, 0}, 0, false, kept},
-      {{3.0 * t, 1.0 * t, 15, 0, true}, 0, false, kept}};
+      {{3.0 * t, 1.0 * t, 15, 0, true}, 0, false, kept, true}};
 }
 
 void refine(std::vector<Hypothesis>& list, const Joint& joint, const Pass& pass, const Context& context) {
@@ -59,13 +59,16 @@ void refine(std::vector<Hypothesis>& list, const Joint& joint, const Pass& pass,
       Hypothesis& hypothesis = list[k];
       AlignOptions options = pass.align;
       options.facet_b = pass.facet_only ? hypothesis.facet_b : -1;
-      hypothesis.pose = joint.align(hypothesis.pose, options);
+      const Rigid pose = joint.align(hypothesis.pose, options);
       const bool all = pass.evidence_samples == 0 && !pass.facet_only;
-      hypothesis.evidence =
-          all ? joint.agreed_evidence(hypothesis.pose)
-              : joint.evidence(hypothesis.pose, pass.evidence_samples, options.facet_b, options.quick);
-      hypothesis.strength = strength(hypothesis.evidence);
+      const Evidence evidence =
+          all ? joint.agreed_evidence(pose)
+              : joint.evidence(pose, pass.evidence_samples, options.facet_b, options.quick);
       done[k] = 1;
+      if (pass.if_stronger && strength(evidence) < hypothesis.strength) continue;
+      hypothesis.pose = pose;
+      hypothesis.evidence = evidence;
+      hypothesis.strength = strength(evidence);
     }
   });
   std::vector<Hypothesis> kept;

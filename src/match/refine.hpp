@@ -13,7 +13,7 @@ struct Hypothesis {
   Rigid pose;
   Evidence evidence;
   double strength = 0;
-  int facet_a = -1;
+  int facet_a = -1;  ///< match/cuts.hpp; -1: not from a facet
   int facet_b = -1;
 };
 
@@ -23,6 +23,7 @@ struct Pass {
   int evidence_samples = 0;  ///< of B that are looked at; 0: all
   bool facet_only = false;   ///< only the facet of B that the hypothesis came from
   std::size_t kept = 0;      ///< distinct poses that go on
+  bool if_stronger = false;  ///< only what becomes stronger is moved
 };
 
 /// The rounds of a match, first to last; each costs more a hypothesis and keeps fewer.

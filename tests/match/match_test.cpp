@@ -117,6 +117,23 @@ TEST(Refine, TighteningNeverWeakensAndSorts) {
     EXPECT_EQ(hypothesis.strength, strength(joint.agreed_evidence(hypothesis.pose)));
 }
 
+TEST(Refine, WhatARoundWouldWeakenStays) {
+  const Pair pair = make_pair(5);
+  const Joint joint(pair.a, pair.b);
+  Pass pass = passes(joint.tolerance(), 8).back();
+  ASSERT_TRUE(pass.if_stronger);
+  Rigid disturbed = pair.truth;
+  disturbed.translation += glm::dvec3(0.4 * joint.tolerance());
+  for (const double strength : {0.0, 1e9}) {
+    std::vector<Hypothesis> list{{disturbed, {}, strength}};
+    refine(list, joint, pass, Context{});
+    ASSERT_EQ(list.size(), 1U);
+    const bool stays = strength > 0.0;
+    EXPECT_EQ(list.front().strength == strength, stays);
+    EXPECT_EQ(worst_offset(list.front().pose, disturbed, pair.b.surface) == 0.0, stays);
+  }
+}
+
 TEST(Match, PlainBlockDoesNotJoin) {
   // Flat sides of equal size everywhere, nothing that fits the cut: the paper's trivial solutions must not count.
   const Pair pair = make_pair(4);
