@@ -13,6 +13,7 @@ namespace {
 constexpr double kEven = 6.0;    // strength at which a joint is as likely as not
 constexpr double kSteady = 2.0;  // degrees between the poses of either half of the samples, at most
 constexpr double kSlope = 0.75;  // strength that multiplies the odds by e
+constexpr double kAhead = 10.0;  // log-odds of a sure join over those of the pair's next pose, at least
 
 }  // namespace
 
@@ -25,7 +26,8 @@ double score_of(double strength) {
 }
 
 Verdict verdict_of(double score, const std::optional<Stability>& stability) {
-  if (score >= kSure && stability && stability->repeat_deg <= kSteady) return Verdict::Join;
+  const bool holds = stability && stability->repeat_deg <= kSteady && stability->margin >= kAhead;
+  if (score >= kSure && holds) return Verdict::Join;
   return score >= kPossible ? Verdict::Unsure : Verdict::NoJoin;
 }
 

@@ -21,7 +21,8 @@ double log_odds(double strength);
 double score_of(double strength);
 
 /// \param score      of the best candidate
-/// \param stability  of it; a pose that half of the samples would turn, or that was not probed, is no sure join
+/// \param stability  of it; a pose that half of the samples would turn, that another one comes near, or that was not probed, is no
+///                   sure join
 Verdict verdict_of(double score, const std::optional<Stability>& stability);
 
 /// A candidate without errors by depth maps, which stay infinite.

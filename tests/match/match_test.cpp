@@ -94,7 +94,7 @@ TEST(Stability, PoseWithoutContactIsNotProbedAndNoSureJoin) {
   const Rigid apart = Rigid{glm::dmat3(1.0), glm::dvec3(1000, 0, 0)} * pair.truth;
   EXPECT_FALSE(probe(joint, apart, joint.evidence(apart, 0)));
   EXPECT_EQ(verdict_of(1.0, std::nullopt), Verdict::Unsure);
-  EXPECT_EQ(verdict_of(1.0, Stability{}), Verdict::Join);
+  EXPECT_EQ(verdict_of(1.0, Stability{.margin = 20}), Verdict::Join);
 }
 
 TEST(Refine, TighteningNeverWeakensAndSorts) {
@@ -352,6 +352,13 @@ TEST(Joint, RoughBreakOnAPlaneSaysNothing) {
   const Evidence agreed = Joint(plane, waves).agreed_evidence(Rigid{});
   EXPECT_GT(agreed.contact_area, 0.0);
   EXPECT_LE(strength(agreed), 0.0);
+}
+
+TEST(Score, PoseThatAnotherComesNearOrThatTurnsIsNoSureJoin) {
+  EXPECT_EQ(verdict_of(1.0, Stability{.margin = 20, .repeat_deg = 0.5}), Verdict::Join);
+  EXPECT_EQ(verdict_of(1.0, Stability{.margin = 8, .repeat_deg = 0.5}), Verdict::Unsure);
+  EXPECT_EQ(verdict_of(1.0, Stability{.margin = 20, .repeat_deg = 4}), Verdict::Unsure);
+  EXPECT_EQ(verdict_of(0.1, Stability{.margin = 20, .repeat_deg = 0.5}), Verdict::NoJoin);
 }
 
 TEST(Score, GrowsWithStrengthBetweenZeroAndOne) {
