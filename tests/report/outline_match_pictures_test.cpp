@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
+#include <string>
 
 #include "report/canvas.hpp"
 #include "report/outline_pictures.hpp"
@@ -25,7 +27,7 @@ outline::JoinCandidate upright() {
 /// match.png of a piece of 300 x 200 and one of 60 x 80 that meet along 60.
 cv::Mat drawn(const std::string& verdict, const outline::JoinCandidate& best = upright()) {
   const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / "rejoin_outline_match_pictures";
+      std::filesystem::temp_directory_path() / ("rejoin-outline-match-" + std::to_string(getpid()));
   std::filesystem::create_directories(folder);
   write_outline_match_pictures(folder, rectangle("large", 300, 200), rectangle("small", 60, 80), {{best}},
                                verdict);

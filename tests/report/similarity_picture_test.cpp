@@ -1,9 +1,11 @@
 #include "report/similarity_picture.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
+#include <string>
 
 namespace rejoin::report {
 namespace {
@@ -23,7 +25,7 @@ struct Drawn {
     join.contact = 100.0;
     assembly.joins = {join};
     const std::filesystem::path path =
-        std::filesystem::temp_directory_path() / ("rejoin_similarity_" + std::to_string(count) + ".png");
+        std::filesystem::temp_directory_path() / ("rejoin-similarity-" + std::to_string(getpid()) + ".png");
     write_similarity_picture(path, pieces, assembly);
     image = cv::imread(path.string());
     std::filesystem::remove(path);
