@@ -173,6 +173,20 @@ TEST(Match, AsksForDirectionsAndLooksNowhereElse) {
   EXPECT_LT(narrow.evaluations, wide.evaluations);
 }
 
+TEST(Match, PosesThatComeTogetherAreOneCandidate) {
+  const Pair pair = make_pair(9);
+  const glm::dvec3 centre = mesh::centroid(pair.b.surface);
+  Options options;
+  for (const double turn_deg : {-3.5, 3.5}) {
+    const Rigid turn{axis_rotation(glm::normalize(pair.planted.direction_b), turn_deg * kDegree), {}};
+    const Rigid about_centre = Rigid{glm::dmat3(1.0), centre} * turn * Rigid{glm::dmat3(1.0), -centre};
+    options.proposals.push_back(to_files(pair.a, pair.b, pair.truth * about_centre));
+  }
+  const Result result = match(pair.a, pair.b, options, Context{});
+  ASSERT_EQ(result.candidates.size(), 1U);
+  EXPECT_LT(angle_between(result.candidates.front().pose, pair.planted.truth), 1.0 * kDegree);
+}
+
 TEST(Match, CancelledSearchReturnsAtOnceAndSaysSo) {
   const Pair pair = make_pair(8);
   Context context;
