@@ -103,7 +103,7 @@ void measure_join(const match::Fragment& a, const match::Fragment& b, const Pair
     stages.add(k + 1, fmt::format("pass {}", k + 1), list, truth, a, b, seconds);
     lap(last);
   }
-  match::tighten(list, joint);
+  match::tighten(list, joint, b, std::max(a.diameter, b.diameter));
   stages.add(passes.size() + 1, "tightening", list, truth, a, b, lap(last));
 }
 

@@ -162,10 +162,7 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
   }
   if (!context.cancelled()) align(hypotheses, joint, a, b, std::span(rounds).subspan(kGlance), context);
   hypotheses.resize(std::min(hypotheses.size(), static_cast<std::size_t>(options.max_candidates)));
-  if (!context.cancelled()) {
-    tighten(hypotheses, joint);
-    hypotheses = distinct(hypotheses, b, std::max(a.diameter, b.diameter), hypotheses.size());
-  }
+  if (!context.cancelled()) tighten(hypotheses, joint, b, std::max(a.diameter, b.diameter));
   clock.lap("align");
 
   context.report("verify", 0.8);

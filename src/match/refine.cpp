@@ -64,11 +64,12 @@ void refine(std::vector<Hypothesis>& list, const Joint& joint, const Pass& pass,
       const Evidence evidence =
           all ? joint.agreed_evidence(pose)
               : joint.evidence(pose, pass.evidence_samples, options.facet_b, options.quick);
+      const double reached = strength(evidence);
       done[k] = 1;
-      if (pass.if_stronger && strength(evidence) < hypothesis.strength) continue;
+      if (pass.if_stronger && reached < hypothesis.strength) continue;
       hypothesis.pose = pose;
       hypothesis.evidence = evidence;
-      hypothesis.strength = strength(evidence);
+      hypothesis.strength = reached;
     }
   });
   std::vector<Hypothesis> kept;
@@ -76,15 +77,6 @@ void refine(std::vector<Hypothesis>& list, const Joint& joint, const Pass& pass,
     if (done[k] != 0) kept.push_back(list[k]);
   }
   list.swap(kept);
-  sort_by_strength(list);
-}
-
-void tighten(std::vector<Hypothesis>& list, const Joint& joint) {
-  parallel_for(list.size(), 1, [&](std::size_t first, std::size_t last) {
-    for (std::size_t k = first; k < last; ++k) {
-      if (k == 0 || score_of(list[k].strength) >= kPossible) tighten_one(list[k], joint);
-    }
-  });
   sort_by_strength(list);
 }
 
@@ -100,6 +92,16 @@ std::vector<Hypothesis> distinct(const std::vector<Hypothesis>& list, const Frag
     if (kept.size() == most) break;
   }
   return kept;
+}
+
+void tighten(std::vector<Hypothesis>& list, const Joint& joint, const Fragment& b, double diameter) {
+  parallel_for(list.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) {
+      if (k == 0 || score_of(list[k].strength) >= kPossible) tighten_one(list[k], joint);
+    }
+  });
+  sort_by_strength(list);
+  list = distinct(list, b, diameter, list.size());
 }
 
 }  // namespace rejoin::match

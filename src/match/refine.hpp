@@ -35,14 +35,15 @@ std::vector<Pass> passes(double tolerance, int most);
 /// what was found is not lost; the others are dropped.
 void refine(std::vector<Hypothesis>& list, const Joint& joint, const Pass& pass, const Context& context);
 
-/// Aligns the first, and all others that may be a join, again with shorter reaches and takes what is stronger, for how far
-/// worn places have to be left out differs from joint to joint; then sorts.
-/// \pre sorted by refine()
-void tighten(std::vector<Hypothesis>& list, const Joint& joint);
-
 /// The first `most` of a list that are different poses.
 /// \param diameter  of the larger fragment, mesh units
 std::vector<Hypothesis> distinct(const std::vector<Hypothesis>& list, const Fragment& b, double diameter,
                                  std::size_t most);
+
+/// Aligns the first, and all others that may be a join, again with shorter reaches and takes what is stronger, for how far
+/// worn places have to be left out differs from joint to joint; then sorts, and keeps one of poses that came together.
+/// \param diameter  of the larger fragment, mesh units
+/// \pre sorted by refine()
+void tighten(std::vector<Hypothesis>& list, const Joint& joint, const Fragment& b, double diameter);
 
 }  // namespace rejoin::match
