@@ -20,7 +20,7 @@ using nlohmann::ordered_json;
 /// The surface with every facet in its own colour; vertices between facets are doubled so that borders stay
 /// sharp.
 mesh::Mesh coloured(const mesh::Mesh& surface, const mesh::Segmentation& facets) {
-  const std::vector<int> facet_of_face = mesh::facet_of_faces(facets, surface);
+  const std::vector<int> facet_of_face = mesh::facet_of_faces(facets, mesh::sample_of_faces(facets, surface));
   mesh::Mesh result;
   result.origin = surface.origin;
   std::map<std::pair<std::uint32_t, int>, std::uint32_t> copies;

@@ -44,7 +44,9 @@ class FacetMeshes {
   explicit FacetMeshes(const Fragment& fragment) : fragment_(fragment) {}
 
   const mesh::Mesh& of(int facet) {
-    if (facet_of_face_.empty()) facet_of_face_ = mesh::facet_of_faces(fragment_.facets, fragment_.surface);
+    if (facet_of_face_.empty())
+      facet_of_face_ =
+          mesh::facet_of_faces(fragment_.facets, mesh::sample_of_faces(fragment_.facets, fragment_.surface));
     const auto [place, is_new] = meshes_.try_emplace(facet);
     if (is_new) {
       std::vector<std::uint32_t> faces;

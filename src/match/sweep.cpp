@@ -161,14 +161,15 @@ double turn_step(const FacetPatch& a, const FacetPatch& b, double pitch, double 
 
 /// The facets of one cut that may join.
 /// \param first  number of the cut's first facet
+/// \param sample_of_face  of the fragment's coarse mesh
 std::vector<SweptFacet> candidates(const Fragment& fragment, const mesh::Cut& cut, int first,
-                                   const std::vector<int>& chosen) {
+                                   const std::vector<int>& sample_of_face, const std::vector<int>& chosen) {
   if (cut.facets.empty()) return {};
   double largest = 0.0;
   for (const auto& facet : cut.facets) {
     if (facet.fracture) largest = std::max(largest, facet.area);
   }
-  const auto facet_of_face = mesh::facet_of_faces(fragment.facets, cut, fragment.coarse);
+  const auto facet_of_face = mesh::facet_of_faces(cut, sample_of_face);
   std::vector<SweptFacet> list;
   for (int f = 0; f < static_cast<int>(cut.facets.size()); ++f) {
     const auto& facet = cut.facets[static_cast<std::size_t>(f)];
@@ -190,10 +191,14 @@ void add_tasks(const std::vector<SweptFacet>& a, const std::vector<SweptFacet>& 
 }  // namespace
 
 SweepResult sweep(const Fragment& a, const Fragment& b, const SweepOptions& options, const Context& context) {
-  const auto seen_a = candidates(a, a.facets, 0, options.facets_a);
-  const auto seen_b = candidates(b, b.facets, 0, options.facets_b);
-  const auto creased_a = candidates(a, a.facets.creased, facet_numbers(a).creased, options.facets_a);
-  const auto creased_b = candidates(b, b.facets.creased, facet_numbers(b).creased, options.facets_b);
+  const auto samples_a = mesh::sample_of_faces(a.facets, a.coarse);
+  const auto samples_b = mesh::sample_of_faces(b.facets, b.coarse);
+  const auto seen_a = candidates(a, a.facets, 0, samples_a, options.facets_a);
+  const auto seen_b = candidates(b, b.facets, 0, samples_b, options.facets_b);
+  const auto creased_a =
+      candidates(a, a.facets.creased, facet_numbers(a).creased, samples_a, options.facets_a);
+  const auto creased_b =
+      candidates(b, b.facets.creased, facet_numbers(b).creased, samples_b, options.facets_b);
   std::vector<Task> tasks;
   add_tasks(seen_a, seen_b, tasks);
   add_tasks(creased_a, creased_b, tasks);

@@ -239,14 +239,10 @@ Segmentation segment(const Mesh& mesh, double size) {
   return s;
 }
 
-std::vector<int> facet_of_faces(const Segmentation& segmentation, const Mesh& mesh) {
-  return facet_of_faces(segmentation, segmentation, mesh);
-}
-
-std::vector<int> facet_of_faces(const Segmentation& segmentation, const Cut& cut, const Mesh& mesh) {
+std::vector<int> sample_of_faces(const Segmentation& segmentation, const Mesh& mesh) {
   const PointIndex index(segmentation.samples.points);
   const auto normals = face_normals(mesh);
-  std::vector<int> facets(mesh.faces.size(), -1);
+  std::vector<int> samples(mesh.faces.size(), -1);
   parallel_for(mesh.faces.size(), 512, [&](std::size_t first, std::size_t last) {
     std::vector<std::uint32_t> near;
     for (std::size_t f = first; f < last; ++f) {
@@ -255,12 +251,19 @@ std::vector<int> facet_of_faces(const Segmentation& segmentation, const Cut& cut
       index.nearest(middle, 4, near);
       for (const auto i : near) {
         if (glm::dot(segmentation.normals[i], normals[f]) < 0.0F) continue;
-        facets[f] = cut.facet_of_sample[i];
+        samples[f] = static_cast<int>(i);
         break;
       }
     }
   });
-  return facets;
+  return samples;
+}
+
+std::vector<int> facet_of_faces(const Cut& cut, std::vector<int> sample_of_face) {
+  for (int& i : sample_of_face) {
+    if (i >= 0) i = cut.facet_of_sample[static_cast<std::size_t>(i)];
+  }
+  return sample_of_face;
 }
 
 }  // namespace rejoin::mesh

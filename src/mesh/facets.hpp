@@ -56,10 +56,12 @@ struct Segmentation : Cut {
 Segmentation segment(const Mesh& mesh, double size);
 Segmentation segment(const Mesh& mesh);
 
-/// For every face of `mesh` (the segmented one, or another level of detail of it) the facet of the nearest
-/// sample, or -1.
-/// \param cut  `segmentation` itself, or its other cut
-std::vector<int> facet_of_faces(const Segmentation& segmentation, const Cut& cut, const Mesh& mesh);
-std::vector<int> facet_of_faces(const Segmentation& segmentation, const Mesh& mesh);
+/// For every face of `mesh` (the segmented one, or another level of detail of it) the nearest sample that looks the same way,
+/// or -1.
+std::vector<int> sample_of_faces(const Segmentation& segmentation, const Mesh& mesh);
+
+/// For every face the facet of its sample, or -1.
+/// \param sample_of_face  sample_of_faces() of the mesh
+std::vector<int> facet_of_faces(const Cut& cut, std::vector<int> sample_of_face);
 
 }  // namespace rejoin::mesh

@@ -115,7 +115,7 @@ std::vector<FacetLabel> facet_labels(const Visibility& seen, const std::vector<i
 }
 
 Image facet_picture(const mesh::Mesh& surface, const mesh::Segmentation& facets, const std::string& title) {
-  const std::vector<int> facet_of_face = mesh::facet_of_faces(facets, surface);
+  const std::vector<int> facet_of_face = mesh::facet_of_faces(facets, mesh::sample_of_faces(facets, surface));
   Body body;
   body.mesh = &surface;
   body.face_colours.reserve(facet_of_face.size());
