@@ -30,6 +30,9 @@ constexpr int kQuadricRounds = 12;       // at most
 constexpr double kQuadricSteady = 0.02;  // share by which the deviation may still change in the end
 constexpr double kQuadricReach = 7.0;    // robust deviations beyond which a height does not bend the quadric
 constexpr double kLoose = 0.5;           // gap spread, in tolerances, that halves what a joint is worth
+constexpr double kOpenCosts = 4.0;       // exponent of the share that touches
+constexpr double kContact = 0.2;         // nats that a touching patch is worth among poses of one pair
+constexpr double kMostPatches = 16.0;    // more contact than this says no more
 constexpr double kWallsGoOn = 0.8;       // share of the walls that go on across a true seam, at least
 
 /// 1.48 times the median absolute deviation: the standard deviation of what is not outliers.
@@ -220,6 +223,12 @@ class Look {
   bool quick_;
 };
 
+/// Of what lies over the other surface or inside the other body, the share that touches.
+double touching_share(const Evidence& evidence) {
+  const double all = evidence.shared_area + evidence.penetration_area;
+  return all > 0 ? evidence.contact_area / all : 0.0;
+}
+
 }  // namespace
 
 double median_gap(std::vector<double> gaps) {
@@ -228,13 +237,19 @@ double median_gap(std::vector<double> gaps) {
 }
 
 double strength(const Evidence& evidence) {
-  const double against = evidence.shared_area + evidence.penetration_area;
-  if (against <= 0 || evidence.tolerance <= 0) return 0.0;
-  const double touching = evidence.contact_area / against;
+  const double touching = touching_share(evidence);
+  if (touching <= 0 || evidence.tolerance <= 0) return 0.0;
   const double loose = evidence.gap_spread / (kLoose * evidence.tolerance);
   const double walls = std::min(1.0, evidence.wall_share / kWallsGoOn);
-  return evidence.information * touching * touching * touching * touching * walls * walls /
+  return evidence.information * std::pow(touching, kOpenCosts) * walls * walls /
          (1.0 + loose * loose * loose * loose);
+}
+
+double rank(const Evidence& evidence) {
+  if (evidence.patch_area <= 0) return 0.0;
+  const double patches = std::min(kMostPatches, evidence.contact_area / evidence.patch_area);
+  return std::max(0.0, strength(evidence)) +
+         kContact * patches * std::pow(touching_share(evidence), kOpenCosts);
 }
 
 Evidence Joint::evidence(const Rigid& pose, int most_samples, int facet_b, bool quick) const {

@@ -42,4 +42,9 @@ struct Evidence {
 /// \source docs/scoring.md
 double strength(const Evidence& evidence);
 
+/// What poses of one pair are ordered by: the strength, and a little for every patch that touches.  The strength of weak poses may
+/// be chance, and of these the right ones have more contact.  Says nothing across pairs.
+/// \source docs/scoring.md
+double rank(const Evidence& evidence);
+
 }  // namespace rejoin::match

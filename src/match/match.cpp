@@ -109,6 +109,13 @@ void align(std::vector<Hypothesis>& hypotheses, const Joint& joint, const Fragme
   }
 }
 
+/// The largest strength, 0 without any; it need not be the first's, as poses are sorted by rank().
+double strongest(std::span<const Hypothesis> hypotheses) {
+  double most = 0.0;
+  for (const Hypothesis& hypothesis : hypotheses) most = std::max(most, hypothesis.strength);
+  return most;
+}
+
 /// Ends with the best pose so far, if there is one.
 void give_up(const Fragment& a, const Fragment& b, const std::vector<Hypothesis>& hypotheses,
              const Context& context, Result& result) {
@@ -154,7 +161,7 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
   context.report("align", 0.5);
   const auto rounds = passes(joint.tolerance(), options.max_candidates);
   align(hypotheses, joint, a, b, std::span(rounds).first(kGlance), context);
-  result.promise = hypotheses.empty() ? 0.0 : hypotheses.front().strength;
+  result.promise = strongest(hypotheses);
   if (options.promising_only && result.promise < kWorthwhile) {
     clock.lap("align");
     give_up(a, b, hypotheses, context, result);
@@ -175,7 +182,7 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
   if (!hypotheses.empty() && !context.cancelled()) {
     const Hypothesis& best = hypotheses.front();
     result.stability = probe(joint, best.pose, best.evidence);
-    const double next = hypotheses.size() > 1 ? hypotheses[1].strength : 0.0;
+    const double next = strongest(std::span(hypotheses).subspan(1));
     if (result.stability) result.stability->margin = log_odds(best.strength) - log_odds(next);
   }
   clock.lap("verify");

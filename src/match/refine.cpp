@@ -13,9 +13,10 @@ namespace {
 constexpr std::size_t kEvenIfCancelled = 6;
 constexpr std::array kTighter{0.7, 0.5, 0.35};  // reaches, tolerances
 
-void sort_by_strength(std::vector<Hypothesis>& list) {
-  std::stable_sort(list.begin(), list.end(),
-                   [](const Hypothesis& x, const Hypothesis& y) { return x.strength > y.strength; });
+void sort_by_rank(std::vector<Hypothesis>& list) {
+  std::stable_sort(list.begin(), list.end(), [](const Hypothesis& x, const Hypothesis& y) {
+    return rank(x.evidence) > rank(y.evidence);
+  });
 }
 
 void tighten_one(Hypothesis& hypothesis, const Joint& joint) {
@@ -48,7 +49,7 @@ std::vector<Pass> passes(double tolerance, int most) {
        true,
        3 * kept},
       {{6.0 * t, 2.0 * t, 20, 0}, 0, false, kept},
-      {{3.0 * t, 1.0 * t, 15, 0, true}, 0, false, kept, true}};
+      {{3.0 * t, 1.0 * t, 15, 0, true}, 0, false, kept}};
 }
 
 void refine(std::vector<Hypothesis>& list, const Joint& joint, const Pass& pass, const Context& context) {
@@ -59,17 +60,19 @@ void refine(std::vector<Hypothesis>& list, const Joint& joint, const Pass& pass,
       Hypothesis& hypothesis = list[k];
       AlignOptions options = pass.align;
       options.facet_b = pass.facet_only ? hypothesis.facet_b : -1;
-      const Rigid pose = joint.align(hypothesis.pose, options);
       const bool all = pass.evidence_samples == 0 && !pass.facet_only;
-      const Evidence evidence =
-          all ? joint.agreed_evidence(pose)
-              : joint.evidence(pose, pass.evidence_samples, options.facet_b, options.quick);
-      const double reached = strength(evidence);
+      const auto weighed = [&](const Rigid& pose) {
+        return all ? joint.agreed_evidence(pose)
+                   : joint.evidence(pose, pass.evidence_samples, options.facet_b, options.quick);
+      };
+      const Rigid moved = joint.align(hypothesis.pose, options);
+      const Evidence before = weighed(hypothesis.pose);
+      const Evidence after = weighed(moved);
+      const bool moves = strength(after) >= strength(before);
+      if (moves) hypothesis.pose = moved;
+      hypothesis.evidence = moves ? after : before;
+      hypothesis.strength = strength(hypothesis.evidence);
       done[k] = 1;
-      if (pass.if_stronger && reached < hypothesis.strength) continue;
-      hypothesis.pose = pose;
-      hypothesis.evidence = evidence;
-      hypothesis.strength = reached;
     }
   });
   std::vector<Hypothesis> kept;
@@ -77,7 +80,7 @@ void refine(std::vector<Hypothesis>& list, const Joint& joint, const Pass& pass,
     if (done[k] != 0) kept.push_back(list[k]);
   }
   list.swap(kept);
-  sort_by_strength(list);
+  sort_by_rank(list);
 }
 
 std::vector<Hypothesis> distinct(const std::vector<Hypothesis>& list, const Fragment& b, double diameter,
@@ -100,7 +103,7 @@ void tighten(std::vector<Hypothesis>& list, const Joint& joint, const Fragment& 
       if (k == 0 || score_of(list[k].strength) >= kPossible) tighten_one(list[k], joint);
     }
   });
-  sort_by_strength(list);
+  sort_by_rank(list);
   list = distinct(list, b, diameter, list.size());
 }
 

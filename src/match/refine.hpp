@@ -23,7 +23,6 @@ struct Pass {
   int evidence_samples = 0;  ///< of B that are looked at; 0: all
   bool facet_only = false;   ///< only the facet of B that the hypothesis came from
   std::size_t kept = 0;      ///< distinct poses that go on
-  bool if_stronger = false;  ///< only what becomes stronger is moved
 };
 
 /// The rounds of a match, first to last; each costs more a hypothesis and keeps fewer.
@@ -31,7 +30,8 @@ struct Pass {
 /// \param most       poses left in the end
 std::vector<Pass> passes(double tolerance, int most);
 
-/// Aligns every hypothesis, weighs its evidence, and sorts by strength.  After a cancel only the first few still are, so that
+/// Aligns every hypothesis, moves it where that does not weaken it (what shape a small contact has may not hold it), and sorts
+/// by rank().  After a cancel only the first few still are, so that
 /// what was found is not lost; the others are dropped.
 void refine(std::vector<Hypothesis>& list, const Joint& joint, const Pass& pass, const Context& context);
 

@@ -136,21 +136,50 @@ TEST(Refine, PosesThatComeTogetherInTighteningAreOne) {
   EXPECT_EQ(list.size(), 1U);
 }
 
-TEST(Refine, WhatARoundWouldWeakenStays) {
+TEST(Refine, MovesWhatGainsAndLeavesWhatWouldWeaken) {
   const Pair pair = make_pair(5);
   const Joint joint(pair.a, pair.b);
-  Pass pass = passes(joint.tolerance(), 8).back();
-  ASSERT_TRUE(pass.if_stronger);
-  Rigid disturbed = pair.truth;
+  const Pass last = passes(joint.tolerance(), 8).back();
+  Rigid best = pair.truth;
+  for (int round = 0; round < 5; ++round) best = joint.align(best, last.align);
+  Pass harmful = last;  // reaches too far over too few samples
+  harmful.align.reach_start = harmful.align.reach_end = 40.0 * joint.tolerance();
+  harmful.align.most_samples = 40;
+  harmful.align.core_only = false;
+  const auto worth = [&](const Rigid& pose) { return strength(joint.agreed_evidence(pose)); };
+  ASSERT_LT(worth(joint.align(best, harmful.align)), worth(best));
+  std::vector<Hypothesis> list{{best, {}, 0.0}};
+  refine(list, joint, harmful, Context{});
+  ASSERT_EQ(list.size(), 1U);
+  EXPECT_EQ(worst_offset(list.front().pose, best, pair.b.surface), 0.0);
+  EXPECT_EQ(list.front().strength, worth(best));
+
+  Rigid disturbed = best;
   disturbed.translation += glm::dvec3(0.4 * joint.tolerance());
-  for (const double strength : {0.0, 1e9}) {
-    std::vector<Hypothesis> list{{disturbed, {}, strength}};
-    refine(list, joint, pass, Context{});
-    ASSERT_EQ(list.size(), 1U);
-    const bool stays = strength > 0.0;
-    EXPECT_EQ(list.front().strength == strength, stays);
-    EXPECT_EQ(worst_offset(list.front().pose, disturbed, pair.b.surface) == 0.0, stays);
-  }
+  list = {{disturbed, {}, 0.0}};
+  refine(list, joint, last, Context{});
+  ASSERT_EQ(list.size(), 1U);
+  EXPECT_GT(list.front().strength, worth(disturbed));
+}
+
+TEST(Evidence, ContactOrdersWeakPosesAndNoStrongOnes) {
+  const Pair pair = make_pair(6);
+  const Joint joint(pair.a, pair.b);
+  const Evidence good = joint.agreed_evidence(pair.truth);
+  Evidence flat = good;  // as much contact without shape
+  flat.information = 0.0;
+  EXPECT_EQ(strength(flat), 0.0);
+  EXPECT_GT(rank(flat), 0.0);
+  EXPECT_LT(rank(flat), rank(good));
+  Evidence small = flat;
+  small.contact_area = small.shared_area = 2.0 * flat.patch_area;
+  small.information = 0.5;  // chance
+  EXPECT_GT(strength(small), strength(flat));
+  EXPECT_LT(rank(small), rank(flat));
+  Evidence gaping = flat;  // half of what lies over it does not touch
+  gaping.shared_area = 2.0 * flat.contact_area;
+  EXPECT_LT(rank(gaping), 0.1 * rank(flat));
+  EXPECT_EQ(rank(Evidence{}), 0.0);
 }
 
 TEST(Match, PlainBlockDoesNotJoin) {
