@@ -41,7 +41,8 @@ std::vector<Hypothesis> distinct(const std::vector<Hypothesis>& list, const Frag
                                  std::size_t most);
 
 /// Aligns the first, and all others that may be a join, again with shorter reaches and takes what is stronger, for how far
-/// worn places have to be left out differs from joint to joint; then sorts, and keeps one of poses that came together.
+/// worn places have to be left out differs from joint to joint; what may be a join goes on in small steps
+/// while they make it stronger; then sorts, and keeps one of poses that came together.
 /// \param diameter  of the larger fragment, mesh units
 /// \pre sorted by refine()
 void tighten(std::vector<Hypothesis>& list, const Joint& joint, const Fragment& b, double diameter);

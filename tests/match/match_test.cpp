@@ -125,6 +125,26 @@ TEST(Refine, TighteningNeverWeakensAndSorts) {
     EXPECT_EQ(hypothesis.strength, strength(joint.agreed_evidence(hypothesis.pose)));
 }
 
+TEST(Refine, TighteningGoesOnWhereAlignmentEnds) {
+  Pair pair = make_pair(6);
+  mesh::Mesh worn = pair.planted.b;  // a third of the break recedes, more and more
+  for (auto& v : worn.vertices) {
+    const glm::dvec3 p = pair.truth(glm::dvec3(v));
+    if (std::abs(p.z) >= 0.9 * testing::kHalfZ || p.x < 2.0) continue;
+    v += glm::vec3(glm::transpose(pair.truth.rotation) * glm::dvec3(0, 0, 0.1 * (p.x - 2.0)));
+  }
+  pair.b = prepare("worn", worn, Context{});
+  const Joint joint(pair.a, pair.b);
+  const std::vector<Hypothesis> start = moved_from_truth(pair, joint, {0.4});
+  std::vector<Hypothesis> list = start;
+  tighten(list, joint, pair.b, 0.0);
+  const double t = joint.tolerance();
+  for (const double reach : {1.0, 0.7, 0.5, 0.35}) {
+    const Rigid aligned = joint.align(start.front().pose, {1.0 * t, reach * t, 15, 0, true});
+    EXPECT_GT(list.front().strength, strength(joint.agreed_evidence(aligned))) << reach;
+  }
+}
+
 TEST(Refine, PosesThatComeTogetherInTighteningAreOne) {
   const Pair pair = make_pair(6);
   const Joint joint(pair.a, pair.b);
