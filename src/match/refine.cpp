@@ -66,7 +66,10 @@ void tighten_one(Hypothesis& hypothesis, const Joint& joint) {
     take_if_stronger(joint.align(start, {1.0 * t, reach * t, 15, 0, true}), joint, hypothesis);
   }
   if (score_of(hypothesis.strength) < kPossible) return;
-  for (const double step : kSteps) climb(hypothesis, joint, step * t);
+  Hypothesis settled = hypothesis;
+  for (const double step : kSteps) climb(settled, joint, step * t);
+  hypothesis.pose = settled.pose;  // not the strength: small steps gain at false poses as much
+  hypothesis.evidence = settled.evidence;
 }
 
 }  // namespace

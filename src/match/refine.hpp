@@ -12,8 +12,8 @@ namespace rejoin::match {
 struct Hypothesis {
   Rigid pose;
   Evidence evidence;
-  double strength = 0;
-  int facet_a = -1;  ///< match/cuts.hpp; -1: not from a facet
+  double strength = 0;  ///< of the joint where it was aligned
+  int facet_a = -1;     ///< match/cuts.hpp; -1: not from a facet
   int facet_b = -1;
 };
 
@@ -41,8 +41,8 @@ std::vector<Hypothesis> distinct(const std::vector<Hypothesis>& list, const Frag
                                  std::size_t most);
 
 /// Aligns the first, and all others that may be a join, again with shorter reaches and takes what is stronger, for how far
-/// worn places have to be left out differs from joint to joint; what may be a join goes on in small steps
-/// while they make it stronger; then sorts, and keeps one of poses that came together.
+/// worn places have to be left out differs from joint to joint; what may be a join goes on in small steps while they make it
+/// stronger, but keeps the strength of where it was aligned; then sorts, and keeps one of poses that came together.
 /// \param diameter  of the larger fragment, mesh units
 /// \pre sorted by refine()
 void tighten(std::vector<Hypothesis>& list, const Joint& joint, const Fragment& b, double diameter);

@@ -122,7 +122,7 @@ TEST(Refine, TighteningNeverWeakensAndSorts) {
   EXPECT_GE(list[0].strength, strongest);
   EXPECT_GE(list[0].strength, list[1].strength);
   for (const Hypothesis& hypothesis : list)
-    EXPECT_EQ(hypothesis.strength, strength(joint.agreed_evidence(hypothesis.pose)));
+    EXPECT_LE(hypothesis.strength, strength(joint.agreed_evidence(hypothesis.pose)));
 }
 
 TEST(Refine, TighteningGoesOnWhereAlignmentEnds) {
@@ -138,10 +138,12 @@ TEST(Refine, TighteningGoesOnWhereAlignmentEnds) {
   const std::vector<Hypothesis> start = moved_from_truth(pair, joint, {0.4});
   std::vector<Hypothesis> list = start;
   tighten(list, joint, pair.b, 0.0);
+  const double settled = strength(joint.agreed_evidence(list.front().pose));
+  EXPECT_LT(list.front().strength, settled);  // which does not count: small steps gain at false poses, too
   const double t = joint.tolerance();
   for (const double reach : {1.0, 0.7, 0.5, 0.35}) {
     const Rigid aligned = joint.align(start.front().pose, {1.0 * t, reach * t, 15, 0, true});
-    EXPECT_GT(list.front().strength, strength(joint.agreed_evidence(aligned))) << reach;
+    EXPECT_GT(settled, strength(joint.agreed_evidence(aligned))) << reach;
   }
 }
 
