@@ -127,7 +127,7 @@ TEST(Refine, TighteningNeverWeakensAndSorts) {
 
 TEST(Refine, TighteningGoesOnWhereAlignmentEnds) {
   Pair pair = make_pair(6);
-  mesh::Mesh worn = pair.planted.b;  // a third of the break recedes, more and more
+  mesh::Mesh worn = pair.planted.b;  // nearly half of the break recedes, more and more
   for (auto& v : worn.vertices) {
     const glm::dvec3 p = pair.truth(glm::dvec3(v));
     if (std::abs(p.z) >= 0.9 * testing::kHalfZ || p.x < 2.0) continue;
