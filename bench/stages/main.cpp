@@ -1,10 +1,12 @@
 // What every stage of the sweep search is worth, on sets of fragments with known poses: whether the true pose is still among
 // those that go on, and what the answer would be if the search ended there.  With --knowledge, what it is worth to know the
-// directions of the breaks or a facet instead.  Markdown on stdout.
+// directions of the breaks or a facet instead; with --continuation, how much skin goes on across the borders of right and of
+// wrong poses.  Markdown on stdout.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <ctime>
 #include <map>
@@ -27,6 +29,7 @@ struct Arguments {
   std::vector<std::string> sets;
   double least_contact = 0;
   bool knowledge = false;
+  bool continuation = false;
 };
 
 /// How often a stage's answer is right, over the joins of a set.
@@ -83,8 +86,9 @@ double lap(std::clock_t& last) {
   return seconds;
 }
 
-void measure_join(const match::Fragment& a, const match::Fragment& b, const PairTruth& truth,
-                  Stages& stages) {
+/// \return the poses that are left in the end
+std::vector<Hypothesis> measure_join(const match::Fragment& a, const match::Fragment& b,
+                                     const PairTruth& truth, Stages& stages) {
   const match::Joint joint(a, b);
   std::clock_t last = std::clock();
   std::vector<Hypothesis> list;
@@ -105,7 +109,45 @@ void measure_join(const match::Fragment& a, const match::Fragment& b, const Pair
   }
   match::tighten(list, joint, b, std::max(a.diameter, b.diameter));
   stages.add(passes.size() + 1, "tightening", list, truth, a, b, lap(last));
+  return list;
 }
+
+/// How many poses have how much skin that goes on across the border of the contact.
+class Continuations {
+ public:
+  void add(const std::vector<Hypothesis>& list, const PairTruth& truth, const match::Fragment& a,
+           const match::Fragment& b) {
+    constexpr double kChance = 0.5;  // weaker poses have nothing to add to
+    for (const Hypothesis& h : list) {
+      if (h.strength < kChance) continue;
+      const bool right = truth.right(match::to_files(a, b, h.pose));
+      const auto above = std::upper_bound(kPatches.begin(), kPatches.end(), h.evidence.continuation);
+      ++counts_[right ? 0 : 1][static_cast<std::size_t>(above - kPatches.begin())];
+    }
+  }
+
+  static void print_head() {
+    fmt::print("| set | poses | below {:.0f} |", kPatches.front());
+    for (std::size_t k = 0; k + 1 < kPatches.size(); ++k)
+      fmt::print(" {:.0f} to {:.0f} |", kPatches[k], kPatches[k + 1]);
+    fmt::print(" {:.0f} and more |\n| --- | --- |", kPatches.back());
+    for (std::size_t k = 0; k <= kPatches.size(); ++k) fmt::print(" ---: |");
+    fmt::print("\n");
+  }
+
+  void print(const std::string& set) const {
+    for (std::size_t k = 0; k < counts_.size(); ++k) {
+      fmt::print("| {} | {} |", set, k == 0 ? "right" : "wrong");
+      for (const int count : counts_[k]) fmt::print(" {} |", count);
+      fmt::print("\n");
+    }
+    std::fflush(stdout);
+  }
+
+ private:
+  static constexpr std::array kPatches{1.0, 4.0, 7.0, 10.0, 13.0};
+  std::array<std::array<int, kPatches.size() + 1>, 2> counts_{};
+};
 
 /// What a user may know, with the options that say it; the true directions are the mean normals of the contact.
 std::vector<std::pair<std::string, match::Options>> knowledge_of(const PairTruth& truth,
@@ -166,6 +208,7 @@ void measure_set(const std::string& folder, const Arguments& arguments) {
   const FragmentSet set = read_set(folder);
   Shelf shelf(set);
   Stages stages;
+  Continuations continuations;
   std::map<std::string, Known> known;
   int joins = 0;
   for (const Join& join : set.joins) {
@@ -176,7 +219,7 @@ void measure_set(const std::string& folder, const Arguments& arguments) {
     if (arguments.knowledge) {
       measure_knowledge(a, b, truth, known);
     } else {
-      measure_join(a, b, truth, stages);
+      continuations.add(measure_join(a, b, truth, stages), truth, a, b);
     }
     ++joins;
   }
@@ -184,7 +227,11 @@ void measure_set(const std::string& folder, const Arguments& arguments) {
     fmt::print("| {} | {} | {} | {} | {} | {} | {:.2f} | {:.2f} |\n", set.name, name, row.joins,
                row.free_found, row.found, row.precise, row.free_seconds / row.joins, row.seconds / row.joins);
   }
-  if (joins > 0) stages.print(set.name, joins);
+  if (arguments.continuation) {
+    continuations.print(set.name);
+  } else if (!arguments.knowledge && joins > 0) {
+    stages.print(set.name, joins);
+  }
   std::fflush(stdout);
 }
 
@@ -204,8 +251,16 @@ int run(int argc, char** argv) {
   app.add_option("--min-contact", arguments.least_contact, "leave out joins with less contact area");
   app.add_flag("--knowledge", arguments.knowledge,
                "whole searches that know directions or a facet, against free ones");
+  app.add_flag(
+         "--continuation", arguments.continuation,
+         "how much skin goes on across the borders of right and of wrong poses that are left in the end")
+      ->excludes("--knowledge");
   CLI11_PARSE(app, argc, argv);
-  print_head(arguments.knowledge);
+  if (arguments.continuation) {
+    Continuations::print_head();
+  } else {
+    print_head(arguments.knowledge);
+  }
   for (const std::string& folder : arguments.sets) measure_set(folder, arguments);
   return 0;
 }

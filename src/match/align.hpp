@@ -40,9 +40,9 @@ class Joint {
   /// \param quick         as in AlignOptions, for what speaks against the joint; the contact is measured exactly
   Evidence evidence(const Rigid& pose, int most_samples, int facet_b = -1, bool quick = false) const;
 
-  /// The evidence of all samples, with the information that both surfaces agree on: strength() of it is the geometric mean of
-  /// those that B's samples over A and A's over B have.  Shape that one of the two has alone, as a rough break on a plane, says
-  /// nothing.
+  /// The evidence of all samples, with what both surfaces agree on.  What the shape is worth is the geometric mean of what B's
+  /// samples over A and A's over B say: shape that one of the two has alone, as a rough break on a plane, says nothing.  Of the
+  /// continuation the lesser counts.
   Evidence agreed_evidence(const Rigid& pose) const;
 
   /// Distance below which surfaces touch: a twentieth of the wall of thin pieces, or what the scans can tell.

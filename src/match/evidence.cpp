@@ -34,6 +34,13 @@ constexpr double kOpenCosts = 4.0;       // exponent of the share that touches
 constexpr double kContact = 0.2;         // nats that a touching patch is worth among poses of one pair
 constexpr double kMostPatches = 16.0;    // more contact than this says no more
 constexpr double kWallsGoOn = 0.8;       // share of the walls that go on across a true seam, at least
+constexpr double kBorderNear = 0.4;      // patches next to the contact that are left out: worn edges lie
+constexpr double kBorderFar = 2.0;       // patches around the contact in which skin is compared
+constexpr double kBorderAlike = 0.8;     // normals across a border differ by at most 37 degrees
+constexpr double kBorderStep = 0.3;      // patches by which skin that goes on may be offset
+constexpr double kByChance = 4.0;        // patches of skin that go on at wrong poses, too
+constexpr double kContinuation = 0.5;    // strength of every further patch
+constexpr double kMostContinuation = 4.5;
 
 /// 1.48 times the median absolute deviation: the standard deviation of what is not outliers.
 double robust_deviation(std::vector<double> values) {
@@ -107,19 +114,24 @@ class Look {
   Evidence evidence(int facet_b) const {
     Evidence e;
     e.tolerance = lengths_.tolerance;
-    look_at_contact(b_.broken_of(facet_b), e);
+    const std::vector<glm::vec3> touching = look_at_contact(b_.broken_of(facet_b), e);
     look_for_penetration(e);
-    if (lengths_.thickness > 0) look_at_walls(e);
+    if (lengths_.thickness > 0) {
+      look_at_walls(e);
+    } else if (most_samples_ <= 0) {
+      look_across_border(touching, e);
+    }
     return e;
   }
 
  private:
-  void look_at_contact(const std::vector<std::uint32_t>& from, Evidence& e) const {
+  /// \return the samples that touch, A's axes
+  std::vector<glm::vec3> look_at_contact(const std::vector<std::uint32_t>& from, Evidence& e) const {
     std::vector<double> gaps;
     std::vector<double> core_gaps;
     std::vector<glm::dvec3> core;
+    std::vector<glm::vec3> touching;
     glm::dvec3 normal(0.0);
-    double touching = 0.0;
     const std::size_t step = stride(from.size(), most_samples_);
     const double share = static_cast<double>(step) * b_.sample_area;
     const auto farthest = static_cast<float>(std::hypot(lengths_.spacing, kOver * lengths_.tolerance));
@@ -142,15 +154,15 @@ class Look {
         core_gaps.push_back(gap);
       }
       if (std::abs(gap) > lengths_.tolerance) continue;
-      touching += 1.0;
+      touching.push_back(p);
     }
-    e.contact_area = touching * share;
+    e.contact_area = static_cast<double>(touching.size()) * share;
     e.shared_area = static_cast<double>(gaps.size()) * share;
     e.patch_area = lengths_.patch * lengths_.patch;
     e.gap_median = median_gap(std::move(gaps));
     if (glm::length(normal) > 0) e.normal = glm::normalize(normal);
     e.core_samples = static_cast<int>(core.size());
-    if (core.size() < 12 || !(glm::length(normal) > 0)) return;
+    if (core.size() < 12 || !(glm::length(normal) > 0)) return touching;
     const int rounds =
         most_samples_ > 0 ? 1 : kQuadricRounds;  // few samples have no bulk to tell from the rest
     e.gap_spread = robust_deviation(core_gaps);
@@ -160,6 +172,7 @@ class Look {
     e.information = 0.5 * patches *
                     std::log((e.relief * e.relief + lengths_.noise * lengths_.noise) /
                              (e.gap_spread * e.gap_spread + lengths_.noise * lengths_.noise));
+    return touching;
   }
 
   void look_for_penetration(Evidence& e) const {
@@ -195,23 +208,52 @@ class Look {
       if (!seam) continue;
       all += 1.0;
       const glm::dvec3 normal(move_.direction(b_.walls.normals[i]));
-      // Where the wall bends along the seam, what is as far behind it as the point is before it shows no step.
-      const glm::vec3 behind = 2.0F * a_.broken.points[seam->first] - p;
-      if (goes_on(p, normal, finder.within(p, 2.0 * near)) || goes_on(p, normal, finder.within(behind, near)))
+      if (goes_on(p, normal, a_.broken.points[seam->first], near, finder,
+                  {a_.walls, kWallBend, kWallStep * lengths_.thickness}))
         found += 1.0;
     }
     if (all > 0) e.wall_share = found / all;
   }
 
-  /// Whether a point of B's walls and one of A's may be of one wall.
-  bool goes_on(const glm::vec3& p, const glm::dvec3& normal,
-               const std::optional<std::pair<std::uint32_t, float>>& hit) const {
-    if (!hit) return false;
-    const glm::dvec3 other(a_.walls.normals[hit->first]);
-    if (glm::dot(other, normal) < kWallBend) return false;
-    const glm::dvec3 between = glm::normalize(other + normal);
-    const double step = glm::dot(glm::dvec3(p - a_.walls.points[hit->first]), between);
-    return std::abs(step) < kWallStep * lengths_.thickness;
+  /// What of B lies around the contact, and whether A goes on there: at a true joint the skin of the object does, on both sides
+  /// of the crack.  Where a third piece has its place, or a wrong pose ends, one surface rises from the other.
+  void look_across_border(const std::vector<glm::vec3>& touching, Evidence& e) const {
+    if (touching.empty()) return;
+    const double far = kBorderFar * lengths_.patch;
+    const mesh::PointIndex contact(touching);
+    const Finder finder = sides_.body_finder(false);
+    double found = 0.0;
+    for (std::size_t i = 0; i < b_.body.points.size(); ++i) {
+      const glm::vec3 p = move_(b_.body.points[i]);
+      const auto border = contact.nearest_within(p, static_cast<float>(far));
+      if (!border || border->second < kBorderNear * lengths_.patch) continue;
+      const glm::dvec3 normal(move_.direction(b_.body.normals[i]));
+      if (goes_on(p, normal, touching[border->first], far, finder,
+                  {a_.body, kBorderAlike, kBorderStep * lengths_.patch}))
+        found += 1.0;
+    }
+    e.continuation = found * b_.sample_area / e.patch_area;
+  }
+
+  /// What surfaces of one skin have in common.
+  struct Skin {
+    const detail::Cloud& of_a;
+    double bend;  ///< cosine of the angle between normals, at least
+    double step;  ///< mesh units, at most
+  };
+
+  /// Whether a point of B belongs to a skin that goes on in A.  Where it bends along the seam, what is as far behind the seam as
+  /// the point is before it shows no step.
+  bool goes_on(const glm::vec3& p, const glm::dvec3& normal, const glm::vec3& seam, double near,
+               const Finder& finder, const Skin& skin) const {
+    const auto alike = [&](const std::optional<std::pair<std::uint32_t, float>>& hit) {
+      if (!hit) return false;
+      const glm::dvec3 other(skin.of_a.normals[hit->first]);
+      if (glm::dot(other, normal) < skin.bend) return false;
+      const glm::dvec3 between = glm::normalize(other + normal);
+      return std::abs(glm::dot(glm::dvec3(p - skin.of_a.points[hit->first]), between)) < skin.step;
+    };
+    return alike(finder.within(p, 2.0 * near)) || alike(finder.within(2.0F * seam - p, near));
   }
 
   const detail::JointSides& sides_;
@@ -229,6 +271,16 @@ double touching_share(const Evidence& evidence) {
   return all > 0 ? evidence.contact_area / all : 0.0;
 }
 
+/// What the shape of the broken surfaces is worth.
+double strength_of_shape(const Evidence& evidence) {
+  const double touching = touching_share(evidence);
+  if (touching <= 0 || evidence.tolerance <= 0) return 0.0;
+  const double loose = evidence.gap_spread / (kLoose * evidence.tolerance);
+  const double walls = std::min(1.0, evidence.wall_share / kWallsGoOn);
+  return evidence.information * std::pow(touching, kOpenCosts) * walls * walls /
+         (1.0 + loose * loose * loose * loose);
+}
+
 }  // namespace
 
 double median_gap(std::vector<double> gaps) {
@@ -237,12 +289,9 @@ double median_gap(std::vector<double> gaps) {
 }
 
 double strength(const Evidence& evidence) {
-  const double touching = touching_share(evidence);
-  if (touching <= 0 || evidence.tolerance <= 0) return 0.0;
-  const double loose = evidence.gap_spread / (kLoose * evidence.tolerance);
-  const double walls = std::min(1.0, evidence.wall_share / kWallsGoOn);
-  return evidence.information * std::pow(touching, kOpenCosts) * walls * walls /
-         (1.0 + loose * loose * loose * loose);
+  const double further = std::max(0.0, evidence.continuation - kByChance);
+  return strength_of_shape(evidence) + std::min(kMostContinuation, kContinuation * further) *
+                                           std::pow(touching_share(evidence), kOpenCosts);
 }
 
 double rank(const Evidence& evidence) {
@@ -258,9 +307,11 @@ Evidence Joint::evidence(const Rigid& pose, int most_samples, int facet_b, bool 
 
 Evidence Joint::agreed_evidence(const Rigid& pose) const {
   Evidence agreed = evidence(pose, 0);
-  const double there = strength(agreed);
-  const double back = strength(Look(*exchanged_, inverse(pose), 0, false).evidence(-1));
+  const Evidence from_a = Look(*exchanged_, inverse(pose), 0, false).evidence(-1);
+  const double there = strength_of_shape(agreed);
+  const double back = strength_of_shape(from_a);
   if (there > 0.0) agreed.information *= std::sqrt(std::max(0.0, back) / there);
+  agreed.continuation = std::min(agreed.continuation, from_a.continuation);
   return agreed;
 }
 

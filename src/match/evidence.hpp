@@ -32,13 +32,16 @@ struct Evidence {
   double penetration_area = 0;  ///< surface of B that lies clearly inside A's body
   /// Thin pieces: share of the walls at the seam that go on on the other side; 1 for solid ones or without walls.
   double wall_share = 1;
+  /// Solid pieces, all samples looked at: skin around the contact that goes on across its border, in patches.  0 for thin ones.
+  double continuation = 0;
   double tolerance = 0;    ///< distance below which the surfaces touch, mesh units
   glm::dvec3 normal{0.0};  ///< mean outward normal of A's shared surface, unit; 0 without any
   glm::dvec3 centre{0.0};  ///< of the shared surface, relative to A's origin
   glm::dvec3 along{0.0};   ///< its longest direction, unit; 0 without any
 };
 
-/// What the evidence is worth: information, less what the joint leaves open or overlaps.  Comparable across pairs.
+/// What the evidence is worth: information, less what the joint leaves open or overlaps, and for solid pieces what goes on across
+/// its border.  Comparable across pairs.
 /// \source docs/scoring.md
 double strength(const Evidence& evidence);
 

@@ -51,6 +51,12 @@ TEST(Match, FindsThePlantedCut) {
   }
 }
 
+/// What the broken surfaces alone are worth.
+double strength_of_shape(Evidence evidence) {
+  evidence.continuation = 0;
+  return strength(evidence);
+}
+
 /// Half of a block cut along a plane.
 Fragment flat_half(bool below) {
   mesh::Mesh half = testing::half_block(below, 48);
@@ -367,7 +373,7 @@ TEST(Joint, FlatSidesWithWornRimsGiveNoInformation) {
   };
   const Evidence evidence = Joint(worn(true), worn(false)).agreed_evidence(Rigid{});
   EXPECT_GT(evidence.core_samples, 200);
-  EXPECT_LT(strength(evidence), 1.0);
+  EXPECT_LT(strength_of_shape(evidence), 1.0);
 }
 
 /// Half of a plate 8 mm thick, broken across; from the break on, the upper half leans by an angle.
@@ -394,17 +400,43 @@ TEST(Joint, WallsGoOnWhereTheyBendAtTheBreakButNotOverAStep) {
   }
 }
 
+TEST(Joint, SkinGoesOnAcrossTheBorderOfAFlatBreakWhereTheSidesLieInOnePlane) {
+  const Fragment below = flat_half(true);
+  const Fragment above = flat_half(false);
+  const Joint joint(below, above);
+  const double patch = std::sqrt(joint.evidence(Rigid{}, 0).patch_area);
+  const double width = 1.6 * patch;  // of the strip that is compared
+  const auto area = [&](const Rigid& pose) {
+    const Evidence evidence = joint.agreed_evidence(pose);
+    return evidence.continuation * evidence.patch_area;
+  };
+  const double all = 4.0 * (testing::kHalfX + testing::kHalfY) * width;
+  EXPECT_NEAR(area(Rigid{}), all, 0.2 * all);
+  // Slid along x only the sides along x go on, where they lie beside each other.
+  const double slide = 15.0;
+  const double beside = 2.0 * (2.0 * testing::kHalfX - slide) * width;
+  EXPECT_NEAR(area({glm::dmat3(1.0), {slide, 0.0, 0.0}}), beside, 0.2 * beside);
+  const Rigid turned{axis_rotation({0.0, 0.0, 1.0}, 25.0 * kDegree), glm::dvec3(0.0)};
+  EXPECT_LT(area(turned), 0.1 * all);
+  // Flat on flat is never more than possible, however much goes on.
+  EXPECT_LT(score_of(strength(joint.agreed_evidence(Rigid{}))), kPossible);
+}
+
 TEST(Joint, AgreedStrengthIsTheGeometricMeanOfThatOfBothSides) {
   const Pair pair = make_pair(12);
   const Joint joint(pair.a, pair.b);
   const Joint exchanged(pair.b, pair.a);
   const Rigid shifted = Rigid{glm::dmat3(1.0), {0.2, 0.1, 0.0}} * pair.truth;
   for (const Rigid& pose : {pair.truth, shifted}) {
-    const double agreed = strength(joint.agreed_evidence(pose));
-    const double there = strength(joint.evidence(pose, 0));
-    const double back = strength(exchanged.evidence(inverse(pose), 0));
-    EXPECT_NEAR(agreed, std::sqrt(there * back), 1e-9 * agreed);
-    EXPECT_NEAR(agreed, strength(exchanged.agreed_evidence(inverse(pose))), 1e-9 * agreed);
+    const Evidence agreed = joint.agreed_evidence(pose);
+    const Evidence there = joint.evidence(pose, 0);
+    const Evidence back = exchanged.evidence(inverse(pose), 0);
+    const Evidence exchanged_agreed = exchanged.agreed_evidence(inverse(pose));
+    const double shape = strength_of_shape(agreed);
+    EXPECT_NEAR(shape, std::sqrt(strength_of_shape(there) * strength_of_shape(back)), 1e-9 * shape);
+    EXPECT_NEAR(shape, strength_of_shape(exchanged_agreed), 1e-9 * shape);
+    EXPECT_DOUBLE_EQ(agreed.continuation, std::min(there.continuation, back.continuation));
+    EXPECT_DOUBLE_EQ(agreed.continuation, exchanged_agreed.continuation);
   }
 }
 
@@ -421,7 +453,7 @@ TEST(Joint, RoughBreakOnAPlaneSaysNothing) {
   const Fragment waves = prepare("waves", wavy, Context{});
   const Evidence agreed = Joint(plane, waves).agreed_evidence(Rigid{});
   EXPECT_GT(agreed.contact_area, 0.0);
-  EXPECT_LE(strength(agreed), 0.0);
+  EXPECT_LE(strength_of_shape(agreed), 0.0);
 }
 
 TEST(Score, PoseThatAnotherComesNearOrThatTurnsIsNoSureJoin) {
