@@ -150,9 +150,7 @@ std::vector<bool> broad(const Ground& ground, const Groups& groups, std::size_t 
 
 std::vector<std::vector<std::uint32_t>> facets_between_creases(const Ground& ground, std::size_t smallest) {
   Groups groups = grow(ground, kSmallCone_deg);
-  std::vector<bool> large;
-  for (const std::size_t size : groups.sizes()) large.push_back(size >= kCrumb);
-  absorb(ground, groups, large);
+  absorb(ground, groups, groups.at_least(kCrumb));
   Merger(ground, groups).run();
   absorb(ground, groups, broad(ground, groups, smallest));
   return members_of(groups, smallest);

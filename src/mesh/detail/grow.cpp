@@ -61,6 +61,12 @@ std::vector<std::size_t> Groups::sizes() const {
   return sizes;
 }
 
+std::vector<bool> Groups::at_least(std::size_t size) const {
+  std::vector<bool> result;
+  for (const std::size_t samples : sizes()) result.push_back(samples >= size);
+  return result;
+}
+
 Groups grow(const Ground& ground, float cone_deg) {
   Groups groups{std::vector<int>(ground.points.size(), -1), {}};
   const float cone = std::cos(cone_deg * kDegree);
@@ -108,9 +114,7 @@ std::vector<std::vector<std::uint32_t>> members_of(const Groups& groups, std::si
 std::vector<std::vector<std::uint32_t>> grow_facets(const Ground& ground, float cone_deg,
                                                     std::size_t smallest) {
   Groups groups = grow(ground, cone_deg);
-  std::vector<bool> stays;
-  for (const std::size_t size : groups.sizes()) stays.push_back(size >= smallest);
-  absorb(ground, groups, stays);
+  absorb(ground, groups, groups.at_least(smallest));
   return members_of(groups, smallest);
 }
 

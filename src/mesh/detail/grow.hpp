@@ -27,7 +27,8 @@ struct Groups {
   std::vector<int> of_sample;
   std::vector<glm::vec3> sum;  ///< of each group's normals
 
-  std::vector<std::size_t> sizes() const;  ///< samples of each group
+  std::vector<std::size_t> sizes() const;              ///< samples of each group
+  std::vector<bool> at_least(std::size_t size) const;  ///< true for the groups of so many samples or more
 };
 
 /// Grows groups one by one, from the flattest places on, until each sample is in one.
