@@ -194,8 +194,9 @@ TEST(Evidence, ContactOrdersWeakPosesAndNoStrongOnes) {
   const Pair pair = make_pair(6);
   const Joint joint(pair.a, pair.b);
   const Evidence good = joint.agreed_evidence(pair.truth);
-  Evidence flat = good;  // as much contact without shape
+  Evidence flat = good;  // as much contact without shape or skin that goes on
   flat.information = 0.0;
+  flat.continuation = 0.0;
   EXPECT_EQ(strength(flat), 0.0);
   EXPECT_GT(rank(flat), 0.0);
   EXPECT_LT(rank(flat), rank(good));
