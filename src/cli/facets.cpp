@@ -70,6 +70,7 @@ std::string facets_json(const match::Fragment& fragment) {
                              {"path", fragment.path},
                              {"faces", fragment.surface.faces.size()},
                              {"diameter", fragment.diameter},
+                             {"noise", fragment.noise},
                              {"wall_thickness", fragment.facets.wall_thickness},
                              {"facets", list}};
   return text_of(json);
@@ -106,10 +107,10 @@ class FacetsCommand final : public Command {
     match::Fragment fragment = load_fragment(path_, console, context);
     if (context.cancelled()) return kInterrupted;
     if (painted_) use_painted_facets({*painted_}, {&fragment}, console);
-    console.result(fmt::format("{}: diameter {:.4g}, {}\n", path_, fragment.diameter,
-                               fragment.facets.wall_thickness > 0
-                                   ? fmt::format("wall {:.3g} thick", fragment.facets.wall_thickness)
-                                   : std::string("solid")));
+    console.result(fmt::format(
+        "{}: diameter {:.4g}, noise {:.2g}, {}\n", path_, fragment.diameter, fragment.noise,
+        fragment.facets.wall_thickness > 0 ? fmt::format("wall {:.3g} thick", fragment.facets.wall_thickness)
+                                           : std::string("solid")));
     console.result(table(fragment.facets));
     if (ply_) mesh::save(*ply_, coloured(fragment.surface, fragment.facets));
     if (png_) report::write_png(*png_, report::facet_picture(fragment.surface, fragment.facets, path_));

@@ -55,6 +55,7 @@ struct Fragment {
   mesh::Segmentation facets;  ///< of `surface`
   double diameter = 0;        ///< mesh units
   double resolution = 0;      ///< sample spacing, mesh units
+  double noise = 0;           ///< of the scan, mesh units (mesh/noise.hpp)
   std::optional<glm::dvec3>
       middle;  ///< view_centre() of `coarse`, where it is known: it takes time at every pair else
   std::vector<StageTime> stages;  ///< surface (of a cloud), coarse, facets; load where a file was read

@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "match/match.hpp"
 #include "match/pose_space.hpp"
+#include "mesh/noise.hpp"
 #include "mesh/surface.hpp"
 
 namespace rejoin::match {
@@ -35,6 +36,7 @@ Fragment prepare(std::string path, mesh::Mesh scan, const Context& context) {
   clock.lap("coarse");
   fragment.diameter = mesh::diameter(fragment.surface);
   fragment.resolution = mesh::resolution(fragment.surface);
+  fragment.noise = mesh::noise(fragment.surface);
   fragment.facets = mesh::segment(fragment.surface, fragment.diameter);
   clock.lap("facets");
   context.report("prepare " + fragment.path, 1.0);

@@ -10,6 +10,7 @@
 #include "mesh/detail/creases.hpp"
 #include "mesh/detail/facet_table.hpp"
 #include "mesh/detail/grow.hpp"
+#include "mesh/detail/local_fit.hpp"
 #include "mesh/neighbours.hpp"
 #include "mesh/point_index.hpp"
 #include "mesh/thickness.hpp"
@@ -80,28 +81,16 @@ std::vector<glm::vec3> strip_normals(const Segmentation& s) {
 }
 
 /// rms distance of the neighbours from the quadric fitted to them, as a fraction of the radius.
-float quadric_residual(const Samples& samples, const std::vector<glm::vec3>& normals,
-                       const std::vector<std::uint32_t>& near, std::size_t i, double radius) {
+float roughness_at(const Samples& samples, const std::vector<glm::vec3>& normals,
+                   const std::vector<std::uint32_t>& near, std::size_t i, double radius) {
   const glm::dmat3 frame = frame_of(glm::normalize(glm::dvec3(normals[i])));
-  Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
-  Eigen::Matrix<double, 6, 1> right = Eigen::Matrix<double, 6, 1>::Zero();
-  double squares = 0.0;
-  int count = 0;
+  std::vector<glm::dvec3> local;
+  local.reserve(near.size());
   for (const auto k : near) {
     if (glm::dot(normals[k], normals[i]) < 0.3F) continue;
-    const glm::dvec3 p = glm::dvec3(samples.points[k] - samples.points[i]) * frame / radius;
-    Eigen::Matrix<double, 6, 1> row;
-    row << 1.0, p.x, p.y, p.x * p.x, p.x * p.y, p.y * p.y;
-    for (int c = 0; c < 6; ++c) {
-      for (int r = c; r < 6; ++r) normal(r, c) += row[r] * row[c];  // LDL^T reads nothing above the diagonal
-    }
-    right += row * p.z;
-    squares += p.z * p.z;
-    ++count;
+    local.push_back(glm::dvec3(samples.points[k] - samples.points[i]) * frame / radius);
   }
-  if (count < 12) return 0.0F;
-  const Eigen::Matrix<double, 6, 1> fit = normal.ldlt().solve(right);
-  return static_cast<float>(std::sqrt(std::max(0.0, squares - fit.dot(right)) / (count - 6)));
+  return static_cast<float>(detail::quadric_residual(local));
 }
 
 std::vector<float> roughness_of(const Samples& samples, const std::vector<glm::vec3>& normals) {
@@ -109,8 +98,7 @@ std::vector<float> roughness_of(const Samples& samples, const std::vector<glm::v
   const Lists near = neighbours_within(samples, radius);
   std::vector<float> rough(samples.size());
   parallel_for(samples.size(), 128, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i)
-      rough[i] = quadric_residual(samples, normals, near[i], i, radius);
+    for (std::size_t i = first; i < last; ++i) rough[i] = roughness_at(samples, normals, near[i], i, radius);
   });
   return rough;
 }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "core/parallel.hpp"
 #include "match/align.hpp"
 #include "match/refine.hpp"
@@ -221,6 +223,36 @@ TEST(Match, PlainBlockDoesNotJoin) {
   const Fragment other = prepare("plain", plain, Context{});
   const Result result = match(pair.a, other, Options{}, Context{});
   EXPECT_EQ(result.verdict, Verdict::NoJoin);
+}
+
+/// A scan of one half of a block by a scanner that puts every point off by 0.35 mm along every axis.
+Fragment noisy_half(mesh::Mesh half, std::uint64_t seed) {
+  Random random(seed);
+  for (auto& v : half.vertices) {
+    v += glm::vec3(0.35 * glm::dvec3(random.normal(), random.normal(), random.normal()));
+  }
+  return prepare("noisy " + std::to_string(seed), std::move(half), Context{});
+}
+
+TEST(Match, NoisyScansJoinWhereTheirBreaksFitAsWellAsNoiseLetsThem) {
+  const auto planted = testing::planted_pair(7, 96);
+  const Fragment a = noisy_half(planted.a, 1);
+  const Fragment b = noisy_half(planted.b, 2);
+  ASSERT_LT(0.3 * a.resolution, 0.35);  // what the spacing of the points alone would let touch
+  const Result result = match(a, b, Options{}, Context{});
+  ASSERT_FALSE(result.candidates.empty());
+  EXPECT_LT(angle_between(result.candidates.front().pose, planted.truth), 1.0 * kDegree);
+  EXPECT_EQ(result.verdict, Verdict::Join);
+}
+
+TEST(Match, NoiseIsNoReliefToAgreeOn) {
+  mesh::Mesh flat = testing::half_block(false, 96);
+  for (auto& v : flat.vertices) {
+    if (v.z < static_cast<float>(testing::kHalfZ)) v.z = -10.0F;
+  }
+  const Fragment a = noisy_half(flat, 3);
+  const Fragment b = noisy_half(flat, 4);
+  EXPECT_EQ(match(a, b, Options{}, Context{}).verdict, Verdict::NoJoin);
 }
 
 TEST(Match, ThreadsDoNotChangeTheResult) {

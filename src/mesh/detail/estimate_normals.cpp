@@ -1,9 +1,9 @@
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <queue>
 
 #include "core/parallel.hpp"
+#include "mesh/detail/local_fit.hpp"
 #include "mesh/detail/soup.hpp"
 #include "mesh/point_index.hpp"
 
@@ -11,21 +11,6 @@ namespace rejoin::mesh::detail {
 namespace {
 
 constexpr std::size_t kNeighbours = 12;
-
-/// Direction of least spread of the points.
-glm::vec3 plane_normal(const std::vector<glm::vec3>& points, const std::vector<std::uint32_t>& chosen) {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const std::uint32_t i : chosen) mean += Eigen::Vector3d(points[i].x, points[i].y, points[i].z);
-  mean /= static_cast<double>(chosen.size());
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const std::uint32_t i : chosen) {
-    const Eigen::Vector3d d = Eigen::Vector3d(points[i].x, points[i].y, points[i].z) - mean;
-    spread += d * d.transpose();
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
-  const Eigen::Vector3d least = solver.eigenvectors().col(0);
-  return glm::normalize(glm::vec3(least.x(), least.y(), least.z()));
-}
 
 /// An undecided point, reached from a decided one.
 struct Step {

@@ -1,0 +1,20 @@
+/// Planes and quadrics that fit points in one place.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+namespace rejoin::mesh::detail {
+
+/// Unit direction of least spread of the chosen points, either way round.
+glm::vec3 plane_normal(const std::vector<glm::vec3>& points, const std::vector<std::uint32_t>& chosen);
+
+/// Root mean square distance along z of points from the quadric over x and y that fits them best.  The six numbers that it has
+/// are taken off the count of points.
+/// \param points  lengths near 1
+/// \return 0 for fewer than 12 points
+double quadric_residual(std::span<const glm::dvec3> points);
+
+}  // namespace rejoin::mesh::detail

@@ -1,0 +1,65 @@
+#include "mesh/noise.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/random.hpp"
+#include "shapes.hpp"
+
+namespace rejoin::mesh {
+namespace {
+
+constexpr float kRadius = 50;
+
+/// Sphere whose points a scanner has put off by a deviation along every axis.
+Mesh scanned_sphere(double deviation) {
+  Random random(3);
+  Mesh mesh = test::icosphere(kRadius, 5);
+  for (glm::vec3& v : mesh.vertices) {
+    v += glm::vec3(glm::dvec3(random.normal(), random.normal(), random.normal()) * deviation);
+  }
+  return mesh;
+}
+
+TEST(Noise, IsThatOfTheScanner) {
+  for (const double deviation : {0.05, 0.2, 0.5}) {
+    const double found = noise(scanned_sphere(deviation));
+    EXPECT_GT(found, 0.75 * deviation);  // of a quarter of the places it is less than of all
+    EXPECT_LT(found, 1.0 * deviation);
+  }
+}
+
+TEST(Noise, OfASmoothSurfaceIsNone) {
+  const Mesh sphere = scanned_sphere(0.0);
+  EXPECT_LT(noise(sphere), 0.001 * resolution(sphere));
+  EXPECT_LT(noise(test::box({30, 20, 10}, 12)), 1e-6);  // edges and corners are fewer than three quarters
+}
+
+TEST(Noise, RoughBreaksAreNotNoise) {
+  // A third of the surface is as rough as a break may be, three waves of it within 20 spacings; the rest is smooth.
+  Mesh sphere = scanned_sphere(0.02);
+  const double before = noise(sphere);
+  for (glm::vec3& v : sphere.vertices) {
+    if (v.z > kRadius / 3) v.z += 2.0F * std::sin(0.5F * v.x) * std::cos(0.5F * v.y);
+  }
+  EXPECT_LT(noise(sphere), 1.3 * before);
+}
+
+TEST(Noise, GrowsWithTheUnitAndKnowsNoPlace) {
+  Mesh sphere = scanned_sphere(0.2);
+  const double before = noise(sphere);
+  for (glm::vec3& v : sphere.vertices) v = 1000.0F * v + glm::vec3(2e4F, -3e4F, 0.0F);
+  EXPECT_NEAR(noise(sphere), 1000.0 * before, 1.0 * before);
+}
+
+TEST(Noise, OfAHandfulOfPointsIsUnknown) {
+  EXPECT_EQ(noise(test::icosphere(1, 0)), 0.0);
+  EXPECT_EQ(noise(Mesh{}), 0.0);
+  Mesh one_place;  // repeated points have no extent
+  one_place.vertices.assign(40, glm::vec3(1, 2, 3));
+  EXPECT_EQ(noise(one_place), 0.0);
+}
+
+}  // namespace
+}  // namespace rejoin::mesh
