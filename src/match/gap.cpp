@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "mesh/area_normals.hpp"
 
 namespace rejoin::match {
 namespace {
@@ -79,17 +80,6 @@ glm::vec3 barycentric(const glm::vec3& p, const glm::vec3& a, const glm::vec3& b
   return {1 - wb - wc, wb, wc};
 }
 
-/// Area-weighted, so that the thin triangles of a scan count little; not yet of unit length.
-std::vector<glm::vec3> area_normals(const mesh::Mesh& mesh) {
-  std::vector<glm::vec3> result(mesh.vertices.size(), glm::vec3(0.0F));
-  for (const glm::uvec3& face : mesh.faces) {
-    const glm::vec3& a = mesh.vertices[face.x];
-    const glm::vec3 normal = glm::cross(mesh.vertices[face.y] - a, mesh.vertices[face.z] - a);
-    for (int k = 0; k < 3; ++k) result[face[k]] += normal;
-  }
-  return result;
-}
-
 /// The sum over the neighbours: calm on noisy scans, but wrong next to edges.
 std::vector<glm::vec3> spread(const mesh::Mesh& mesh, const std::vector<glm::vec3>& normals) {
   std::vector<glm::vec3> result(normals.size(), glm::vec3(0.0F));
@@ -148,7 +138,7 @@ double weighted_quantile(std::vector<std::pair<double, double>>& values, double 
 FacingNormals facing_normals(const mesh::Mesh& mesh) {
   if (mesh.is_cloud()) return {mesh.normals, mesh.normals};
   FacingNormals result;
-  result.near = area_normals(mesh);
+  result.near = mesh::area_normals(mesh);
   result.calm = spread(mesh, result.near);
   make_unit(result.near);
   make_unit(result.calm);

@@ -5,25 +5,27 @@
 
 #include "core/parallel.hpp"
 #include "core/rigid.hpp"
+#include "mesh/area_normals.hpp"
 #include "mesh/detail/local_fit.hpp"
 #include "mesh/point_index.hpp"
 
 namespace rejoin::mesh {
 namespace {
 
-constexpr std::size_t kPlaces = 2000;    // at least, where there are as many points
-constexpr std::size_t kNeighbours = 20;  // for the six unknowns of a quadric
-constexpr std::size_t kSmoothest = 4;    // one place in so many is smoother
+constexpr std::size_t kPlaces = 2000;  // at least, where there are as many points
+constexpr std::size_t kNeighbours = 20;
+constexpr std::size_t kEnough = 12;    // for the six unknowns of a quadric
+constexpr std::size_t kSmoothest = 4;  // one place in so many is smoother
 
-/// Of the points in one place, seen along their plane's normal.
+/// Of points in one place, the first in their middle, seen along the normal of their plane.
 double noise_of(const std::vector<glm::vec3>& points, const std::vector<std::uint32_t>& near) {
-  const glm::dmat3 frame = frame_of(glm::dvec3(detail::plane_normal(points, near)));
-  const glm::vec3 centre = points[near.front()];
-  const auto radius = static_cast<double>(glm::distance(centre, points[near.back()]));
+  const glm::vec3 middle = points[near.front()];
+  const auto radius = static_cast<double>(glm::distance(middle, points[near.back()]));
   if (!(radius > 0.0)) return 0.0;
+  const glm::dmat3 frame = frame_of(glm::dvec3(detail::plane_normal(points, near)));
   std::vector<glm::dvec3> local;
   local.reserve(near.size());
-  for (const std::uint32_t k : near) local.push_back(glm::dvec3(points[k] - centre) * frame / radius);
+  for (const std::uint32_t k : near) local.push_back(glm::dvec3(points[k] - middle) * frame / radius);
   return radius * detail::quadric_residual(local);
 }
 
@@ -31,17 +33,21 @@ double noise_of(const std::vector<glm::vec3>& points, const std::vector<std::uin
 
 double noise(const Mesh& mesh) {
   const std::vector<glm::vec3>& points = mesh.vertices;
-  if (points.size() < kNeighbours) return 0.0;
+  const std::vector<glm::vec3> normals = area_normals(mesh);
   const PointIndex index(points);
   const std::size_t step = std::max<std::size_t>(1, points.size() / kPlaces);
-  std::vector<double> places(points.size() / step);
+  std::vector<double> places(points.size() / step, -1.0);
   parallel_for(places.size(), 64, [&](std::size_t first, std::size_t last) {
     std::vector<std::uint32_t> near;
     for (std::size_t k = first; k < last; ++k) {
-      index.nearest(points[k * step], kNeighbours, near);
-      places[k] = noise_of(points, near);
+      const auto here = static_cast<std::uint32_t>(k * step);
+      index.nearest(points[here], kNeighbours, near);
+      std::erase_if(near, [&](std::uint32_t i) { return !(glm::dot(normals[i], normals[here]) > 0.0F); });
+      if (near.size() >= kEnough) places[k] = noise_of(points, near);
     }
   });
+  std::erase_if(places, [](double place) { return place < 0.0; });
+  if (places.empty()) return 0.0;
   const auto quarter = places.begin() + static_cast<std::ptrdiff_t>(places.size() / kSmoothest);
   std::nth_element(places.begin(), quarter, places.end());
   return *quarter;
