@@ -1,0 +1,104 @@
+#include "match/refine.hpp"
+
+#include <gtest/gtest.h>
+
+#include <initializer_list>
+
+#include "prepared_pair.hpp"
+
+namespace rejoin::match {
+namespace {
+
+using testing::make_pair;
+using testing::Pair;
+using testing::worst_offset;
+
+/// The planted truth moved by each offset, mm, with its strength; weakest first if the offsets fall.
+std::vector<Hypothesis> moved_from_truth(const Pair& pair, const Joint& joint,
+                                         std::initializer_list<double> offsets) {
+  std::vector<Hypothesis> list;
+  for (const double offset : offsets) {
+    Hypothesis hypothesis;
+    hypothesis.pose = Rigid{glm::dmat3(1.0), glm::dvec3(offset, 0, 0)} * pair.truth;
+    hypothesis.evidence = joint.agreed_evidence(hypothesis.pose);
+    hypothesis.strength = strength(hypothesis.evidence);
+    list.push_back(hypothesis);
+  }
+  return list;
+}
+
+TEST(Refine, TighteningNeverWeakensAndSorts) {
+  const Pair pair = make_pair(6);
+  const Joint joint(pair.a, pair.b);
+  std::vector<Hypothesis> list = moved_from_truth(pair, joint, {1.0, 0.5});
+  ASSERT_LT(list[0].strength, list[1].strength);
+  const double strongest = list[1].strength;
+  tighten(list, joint, pair.b, 0.0);  // by this diameter no two poses are one
+  ASSERT_EQ(list.size(), 2U);
+  EXPECT_GE(list[0].strength, strongest);
+  EXPECT_GE(list[0].strength, list[1].strength);
+  for (const Hypothesis& hypothesis : list)
+    EXPECT_LE(hypothesis.strength, strength(joint.agreed_evidence(hypothesis.pose)));
+}
+
+TEST(Refine, TighteningGoesOnWhereAlignmentEnds) {
+  Pair pair = make_pair(6);
+  mesh::Mesh worn = pair.planted.b;  // nearly half of the break recedes, more and more
+  for (auto& v : worn.vertices) {
+    const glm::dvec3 p = pair.truth(glm::dvec3(v));
+    if (std::abs(p.z) >= 0.9 * testing::kHalfZ || p.x < 2.0) continue;
+    v += glm::vec3(glm::transpose(pair.truth.rotation) * glm::dvec3(0, 0, 0.1 * (p.x - 2.0)));
+  }
+  pair.b = prepare("worn", worn, Context{});
+  const Joint joint(pair.a, pair.b);
+  const std::vector<Hypothesis> start = moved_from_truth(pair, joint, {0.4});
+  std::vector<Hypothesis> list = start;
+  tighten(list, joint, pair.b, 0.0);
+  const double settled = strength(joint.agreed_evidence(list.front().pose));
+  EXPECT_LT(list.front().strength, settled);  // which does not count: small steps gain at false poses, too
+  const double t = joint.tolerance();
+  for (const double reach : {1.0, 0.7, 0.5, 0.35}) {
+    const Rigid aligned = joint.align(start.front().pose, {1.0 * t, reach * t, 15, 0, true});
+    EXPECT_GT(settled, strength(joint.agreed_evidence(aligned))) << reach;
+  }
+}
+
+TEST(Refine, PosesThatComeTogetherInTighteningAreOne) {
+  const Pair pair = make_pair(6);
+  const Joint joint(pair.a, pair.b);
+  std::vector<Hypothesis> list = moved_from_truth(pair, joint, {0.3, -0.3});
+  const double diameter =
+      20.0;  // 2 % of it, within which poses are one, is less than the 0.6 mm between these
+  ASSERT_EQ(distinct(list, pair.b, diameter, 2).size(), 2U);
+  tighten(list, joint, pair.b, diameter);
+  EXPECT_EQ(list.size(), 1U);
+}
+
+TEST(Refine, MovesWhatGainsAndLeavesWhatWouldWeaken) {
+  const Pair pair = make_pair(5);
+  const Joint joint(pair.a, pair.b);
+  const Pass last = passes(joint.tolerance(), 8).back();
+  Rigid best = pair.truth;
+  for (int round = 0; round < 5; ++round) best = joint.align(best, last.align);
+  Pass harmful = last;  // reaches too far over too few samples
+  harmful.align.reach_start = harmful.align.reach_end = 40.0 * joint.tolerance();
+  harmful.align.most_samples = 40;
+  harmful.align.core_only = false;
+  const auto worth = [&](const Rigid& pose) { return strength(joint.agreed_evidence(pose)); };
+  ASSERT_LT(worth(joint.align(best, harmful.align)), worth(best));
+  std::vector<Hypothesis> list{{best, {}, 0.0}};
+  refine(list, joint, harmful, Context{});
+  ASSERT_EQ(list.size(), 1U);
+  EXPECT_EQ(worst_offset(list.front().pose, best, pair.b.surface), 0.0);
+  EXPECT_EQ(list.front().strength, worth(best));
+
+  Rigid disturbed = best;
+  disturbed.translation += glm::dvec3(0.4 * joint.tolerance());
+  list = {{disturbed, {}, 0.0}};
+  refine(list, joint, last, Context{});
+  ASSERT_EQ(list.size(), 1U);
+  EXPECT_GT(list.front().strength, worth(disturbed));
+}
+
+}  // namespace
+}  // namespace rejoin::match
