@@ -81,11 +81,12 @@ std::vector<glm::vec3> strip_normals(const Segmentation& s) {
 }
 
 /// rms distance of the neighbours from the quadric fitted to them, as a fraction of the radius.
+/// \param local  room for them
 float roughness_at(const Samples& samples, const std::vector<glm::vec3>& normals,
-                   const std::vector<std::uint32_t>& near, std::size_t i, double radius) {
+                   const std::vector<std::uint32_t>& near, std::size_t i, double radius,
+                   std::vector<glm::dvec3>& local) {
   const glm::dmat3 frame = frame_of(glm::normalize(glm::dvec3(normals[i])));
-  std::vector<glm::dvec3> local;
-  local.reserve(near.size());
+  local.clear();
   for (const auto k : near) {
     if (glm::dot(normals[k], normals[i]) < 0.3F) continue;
     local.push_back(glm::dvec3(samples.points[k] - samples.points[i]) * frame / radius);
@@ -98,7 +99,9 @@ std::vector<float> roughness_of(const Samples& samples, const std::vector<glm::v
   const Lists near = neighbours_within(samples, radius);
   std::vector<float> rough(samples.size());
   parallel_for(samples.size(), 128, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) rough[i] = roughness_at(samples, normals, near[i], i, radius);
+    std::vector<glm::dvec3> local;
+    for (std::size_t i = first; i < last; ++i)
+      rough[i] = roughness_at(samples, normals, near[i], i, radius, local);
   });
   return rough;
 }

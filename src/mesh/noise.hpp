@@ -5,9 +5,9 @@
 
 namespace rejoin::mesh {
 
-/// Noise of a scan's points across its surface: their root mean square distance from the quadric through the 20 nearest ones that
-/// face the same way (the far side of a thin wall does not), in the smoothest quarter of up to 4,000 places.  Relief much wider
-/// than the points' spacing counts little.  Mesh units; 0 where no place has 12 such points.
+/// Noise of a scan's points across its surface: the root mean square distance of points from the quadric through the 20 nearest
+/// ones that face the same way (the far side of a thin wall does not).  Of up to 4,000 places a quarter has less; so relief counts
+/// little, and most where it is as fine as the points' spacing.  Mesh units; 0 where no place has 12 such points.
 /// \pre the mesh has faces
 double noise(const Mesh& mesh);
 
