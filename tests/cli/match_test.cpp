@@ -171,6 +171,15 @@ TEST_F(MatchCommand, OutHoldsTheModelsAndThePictures) {
 }
 
 // Painting every fracture facet of B but the joining one grey leaves one facet, and the same pose.
+TEST_F(MatchCommand, FacetsTellTheNoiseOfAScan) {
+  const auto outcome = run({"facets", b, "--json", json});
+  ASSERT_EQ(outcome.exit_code, 0);
+  const ordered_json found = ordered_json::parse(read_file(json));
+  EXPECT_GT(found["noise"], 0.0);
+  EXPECT_LT(found["noise"], 0.001 * found["diameter"].get<double>());
+  EXPECT_NE(outcome.out.find("noise "), std::string::npos);
+}
+
 TEST_F(MatchCommand, PaintedFacetsAreTheOnesThatMayJoin) {
   const std::string paint = folder / "paint.ply";
   ASSERT_EQ(run({"facets", b, "--ply", paint, "--json", json}).exit_code, 0);
