@@ -19,38 +19,19 @@ float explained_by(const Sums& s, const CorrelateOptions& options) {
   return 2.0F * cov / (variances + 2.0F * n * options.noise_slope * options.noise_slope);
 }
 
-float score_of(float explained, float pixels) {
-  return std::atanh(std::clamp(explained, -0.98F, 0.98F)) * std::sqrt(pixels);
-}
-
-/// Fills pixels, explained, score and tilt.
-void judge(const Sums& s, const CorrelateOptions& options, Agreement& a) {
+/// Fills pixels, explained, along, score and tilt.
+/// \param border  the length of the shorter one
+void judge(const Sums& s, float border, const CorrelateOptions& options, Agreement& a) {
   a.pixels = s.n;
   a.explained = explained_by(s, options);
-  a.score = score_of(a.explained, s.n);
+  a.along = s.along / (detail::kBorderEnergy * border);
+  a.score = std::atanh(std::clamp(a.explained, 0.0F, 0.98F)) * std::sqrt(s.n) +
+            options.outline_weight * a.along * std::sqrt(border);
   a.tilt = glm::vec2(s.u1 - s.u2, s.v1 - s.v2) / s.n;
 }
 
-/// Pixels of a map that count, in each column or in each row.
-struct Profile {
-  std::vector<int> columns;
-  std::vector<int> rows;
-};
-
-Profile profile_of(const ReliefMap& map) {
-  Profile profile{std::vector<int>(static_cast<std::size_t>(map.width)),
-                  std::vector<int>(static_cast<std::size_t>(map.height))};
-  const float* mask = map.mask.data();
-  for (int& row : profile.rows) {
-    int in_row = 0;
-    for (int& column : profile.columns) {
-      const int counts = *mask++ != 0.0F ? 1 : 0;
-      in_row += counts;
-      column += counts;
-    }
-    row = in_row;
-  }
-  return profile;
+float shorter_border(const ReliefMap& a, const ReliefMap& b) {
+  return static_cast<float>(std::max(1, std::min(a.border, b.border)));
 }
 
 /// By how many pixels a field may be shorter than both maps together.  Then shifts at opposite ends, where the maps overlap
@@ -78,7 +59,6 @@ std::size_t lines_to_spare(const std::vector<int>& first, const std::vector<int>
 
 struct Correlator::Impl {
   ReliefMap fixed;
-  Profile profile;
   CorrelateOptions options;
   detail::CorrelateFields fields;
   std::vector<std::size_t> places;
@@ -90,16 +70,17 @@ struct Correlator::Impl {
   }
 
   detail::FftSize size_for(const ReliefMap& other) const {
-    const Profile others = profile_of(other);
+    // Borders reach as far beyond each end of a map, and may not meet those at the opposite ends either.
     const auto side = [&](const std::vector<int>& lines, const std::vector<int>& other_lines) {
-      return lines.size() + other_lines.size() - lines_to_spare(lines, other_lines, least(other));
+      return lines.size() + other_lines.size() + 2 * detail::kBorderReach -
+             lines_to_spare(lines, other_lines, least(other));
     };
-    return detail::fft_size(side(profile.columns, others.columns), side(profile.rows, others.rows));
+    return detail::fft_size(side(fixed.columns, other.columns), side(fixed.rows, other.rows));
   }
 
-  Agreement at(std::size_t place) const {
+  Agreement at(std::size_t place, float border) const {
     Agreement a;
-    judge(sums_at(fields, place), options, a);
+    judge(sums_at(fields, place), border, options, a);
     const int u = static_cast<int>(place % fields.size.width);
     const int v = static_cast<int>(place / fields.size.width);
     a.shift_u = u < fixed.width ? u : u - static_cast<int>(fields.size.width);
@@ -111,7 +92,6 @@ struct Correlator::Impl {
 Correlator::Correlator(const ReliefMap& fixed, const CorrelateOptions& options)
     : impl_(std::make_unique<Impl>()) {
   impl_->fixed = fixed;
-  impl_->profile = profile_of(fixed);
   impl_->options = options;
 }
 
@@ -142,11 +122,14 @@ std::vector<Agreement> Correlator::peaks(const ReliefMap& other) {
     resize(d.fields, size);
     set_first(d.fields, d.fixed);
   }
+  const float border = shorter_border(d.fixed, other);
   // Half a pixel for the rounding of the sums, which are whole numbers of pixels.
-  correlate(d.fields, other, {std::ceil(d.least(other)) - 0.5F, d.options.noise_slope});
+  correlate(d.fields, other,
+            {std::ceil(d.least(other)) - 0.5F, d.options.noise_slope,
+             d.options.outline_weight / (detail::kBorderEnergy * std::sqrt(border))});
   local_maxima(d.fields, d.places);
   std::vector<Agreement> found;
-  for (const std::size_t place : d.places) found.push_back(d.at(place));
+  for (const std::size_t place : d.places) found.push_back(d.at(place, border));
   const auto keep = std::min(found.size(), static_cast<std::size_t>(d.options.most_peaks));
   std::partial_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(keep), found.end(),
                     [](const Agreement& a, const Agreement& b) {
@@ -156,6 +139,43 @@ std::vector<Agreement> Correlator::peaks(const ReliefMap& other) {
   found.resize(keep);
   return found;
 }
+
+namespace {
+
+constexpr int kReach = static_cast<int>(detail::kBorderReach);
+
+/// The gradient of a map's mask at pixel (i, j), which may lie outside.
+glm::vec2 gradient_of_mask(const ReliefMap& map, int i, int j) {
+  glm::vec2 sum(0.0F);
+  for (int v = std::max(0, j - kReach); v <= std::min(map.height - 1, j + kReach); ++v) {
+    for (int u = std::max(0, i - kReach); u <= std::min(map.width - 1, i + kReach); ++u) {
+      const auto k =
+          static_cast<std::size_t>(v) * static_cast<std::size_t>(map.width) + static_cast<std::size_t>(u);
+      const auto weight = [](const auto& weights, int from) {
+        return weights[static_cast<std::size_t>(from)];
+      };
+      const int du = u - i + kReach;
+      const int dv = v - j + kReach;
+      sum += map.mask[k] * glm::vec2(weight(detail::kBorderSlope, du) * weight(detail::kBorderMean, dv),
+                                     weight(detail::kBorderMean, du) * weight(detail::kBorderSlope, dv));
+    }
+  }
+  return sum;
+}
+
+/// sum o1.o2, o the gradients of the masks.
+float sum_along(const ReliefMap& fixed, const ReliefMap& other, int shift_u, int shift_v) {
+  float sum = 0.0F;
+  for (int j = std::max(0, shift_v) - kReach; j < std::min(fixed.height, other.height + shift_v) + kReach;
+       ++j) {
+    for (int i = std::max(0, shift_u) - kReach; i < std::min(fixed.width, other.width + shift_u) + kReach;
+         ++i)
+      sum += glm::dot(gradient_of_mask(fixed, i, j), gradient_of_mask(other, i - shift_u, j - shift_v));
+  }
+  return sum;
+}
+
+}  // namespace
 
 Agreement agreement_at(const ReliefMap& fixed, const ReliefMap& other, int shift_u, int shift_v,
                        const CorrelateOptions& options) {
@@ -178,10 +198,11 @@ Agreement agreement_at(const ReliefMap& fixed, const ReliefMap& other, int shift
       s.v2 += other.slope_v[q];
     }
   }
+  if (s.n > 0.0F) s.along = sum_along(fixed, other, shift_u, shift_v);
   Agreement a;
   a.shift_u = shift_u;
   a.shift_v = shift_v;
-  if (s.n > 0.0F) judge(s, options, a);
+  if (s.n > 0.0F) judge(s, shorter_border(fixed, other), options, a);
   return a;
 }
 

@@ -47,12 +47,39 @@ void take_slopes(ReliefMap& map, float sign) {
       map.slope_u[k] = u;
       map.slope_v[k] = v;
       map.mask[k] = 1.0F;
-      ++map.pixels;
     }
   }
+  count_pixels(map);
 }
 
 }  // namespace
+
+void count_pixels(ReliefMap& map) {
+  const auto width = static_cast<std::size_t>(map.width);
+  const std::vector<float> empty(width, 0.0F);
+  map.columns.assign(width, 0);
+  map.rows.clear();
+  map.pixels = 0;
+  map.border = 0;
+  const float* above = empty.data();
+  for (int j = 0; j <= map.height; ++j) {
+    const float* row = j < map.height ? map.mask.data() + static_cast<std::size_t>(j) * width : empty.data();
+    int in_row = 0;
+    int sides = row[0] != 0.0F ? 1 : 0;
+    for (std::size_t i = 0; i < width; ++i) {
+      const int counts = row[i] != 0.0F ? 1 : 0;
+      const float next = i + 1 < width ? row[i + 1] : 0.0F;
+      in_row += counts;
+      map.columns[i] += counts;
+      sides += (row[i] != above[i] ? 1 : 0) + (row[i] != next ? 1 : 0);
+    }
+    above = row;
+    map.border += sides;
+    if (j == map.height) break;
+    map.rows.push_back(in_row);
+    map.pixels += in_row;
+  }
+}
 
 FacetPatch cut_patch(const mesh::Mesh& mesh, const std::vector<int>& facet_of_face, const mesh::Cut& cut,
                      int facet) {

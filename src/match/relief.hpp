@@ -1,4 +1,4 @@
-/// Slope maps of single facets: what the sweep correlates.
+/// Slope maps and outlines of single facets: what the sweep correlates.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -36,8 +36,15 @@ struct ReliefMap {
   std::vector<float> slope_u;     ///< forward differences / pitch; 0 where mask is 0
   std::vector<float> slope_v;
   std::vector<float> mask;  ///< 1 where both slopes are known and not steep, else 0
-  int pixels = 0;           ///< sum of mask
+  // Told of the mask by count_pixels():
+  std::vector<int> columns;  ///< pixels in each column
+  std::vector<int> rows;     ///< and in each row
+  int pixels = 0;            ///< in all
+  int border = 0;            ///< sides of pixels between those of the mask and others
 };
+
+/// Fills what is told of the mask.
+void count_pixels(ReliefMap& map);
 
 /// Slopes steeper than this are left out: they belong to the facet's edge or to undercuts.
 inline constexpr float kSteepest = 2.5F;
@@ -47,7 +54,7 @@ ReliefMap relief_of(const FacetPatch& patch, double pitch);
 
 /// The relief that a partner facing this patch would need: the patch is turned over (half a turn about y),
 /// then by `turn_rad` about z, and its slopes are taken of the surface that it turns to its partner. A
-/// perfect partner's map has the same slopes.
+/// perfect partner's map has the same slopes and the same outline.
 ReliefMap facing_relief_of(const FacetPatch& patch, double pitch, double turn_rad);
 
 }  // namespace rejoin::match

@@ -25,7 +25,7 @@ struct SweepOptions {
   std::vector<int> facets_b;
   double turn_step_px = 2.0;    ///< how far the end of the shorter facet moves between turns, pixels
   int per_pair_of_facets = 24;  ///< peaks kept a pair of facets
-  int most = 1200;              ///< peaks kept in all
+  int most = 600;               ///< peaks kept in all
 };
 
 struct SweepResult {

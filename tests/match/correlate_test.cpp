@@ -30,8 +30,8 @@ ReliefMap random_map(Random& random, int width, int height) {
     map.mask[i] = 1.0F;
     map.slope_u[i] = static_cast<float>(0.4 * random.normal());
     map.slope_v[i] = static_cast<float>(0.4 * random.normal());
-    ++map.pixels;
   }
+  count_pixels(map);
   return map;
 }
 
@@ -48,6 +48,7 @@ TEST(Correlate, EveryPeakEqualsDirectSummation) {
     const Agreement direct = agreement_at(a, b, peak.shift_u, peak.shift_v, options);
     EXPECT_NEAR(peak.pixels, direct.pixels, 1e-2);  // single-precision transforms of sums of some hundreds
     EXPECT_NEAR(peak.explained, direct.explained, 1e-3);
+    EXPECT_NEAR(peak.along, direct.along, 1e-3);
     EXPECT_NEAR(peak.score, direct.score, 2e-2);
     EXPECT_NEAR(peak.tilt.x, direct.tilt.x, 1e-3);
     EXPECT_NEAR(peak.tilt.y, direct.tilt.y, 1e-3);
@@ -88,6 +89,7 @@ TEST(Correlate, CutOutPieceIsFoundWhereItWasCutWhateverItsTilt) {
       b.slope_v[to] = a.mask[from] * (a.slope_v[from] - 0.2F);
     }
   }
+  count_pixels(b);
   Correlator correlator(a, CorrelateOptions{});
   const auto peaks = correlator.peaks(b);
   ASSERT_FALSE(peaks.empty());
@@ -113,7 +115,6 @@ TEST(Correlate, FlatOnFlatExplainsNothing) {
 /// A map whose mask is an ellipse, so that its first and last rows and columns hold little.
 ReliefMap round_map(Random& random, int width, int height) {
   ReliefMap map = random_map(random, width, height);
-  map.pixels = 0;
   for (int j = 0; j < height; ++j) {
     for (int i = 0; i < width; ++i) {
       const auto k =
@@ -121,9 +122,9 @@ ReliefMap round_map(Random& random, int width, int height) {
       const double x = (2 * i + 1.0) / width - 1.0;
       const double y = (2 * j + 1.0) / height - 1.0;
       if (x * x + y * y > 1.0) map.mask[k] = map.slope_u[k] = map.slope_v[k] = 0.0F;
-      map.pixels += map.mask[k] != 0.0F ? 1 : 0;
     }
   }
+  count_pixels(map);
   return map;
 }
 
@@ -136,7 +137,7 @@ std::vector<Agreement> maxima_by_hand(const ReliefMap& a, const ReliefMap& b,
   for (int v = -b.height; v <= a.height; ++v) {
     for (int u = -b.width; u <= a.width; ++u) {
       Agreement now = agreement_at(a, b, u, v, options);
-      if (now.pixels < least || now.explained < 0.0F) now.score = 0.0F;
+      if (now.pixels < least) now.score = 0.0F;
       all[{u, v}] = now;
     }
   }
@@ -165,6 +166,9 @@ TEST(Correlate, EveryLocalMaximumOfMapsOfAnyShapeIsFoundAndNoOther) {
     const ReliefMap b = round_map(random, width, height);
     auto expected = maxima_by_hand(a, b, options);
     auto got = correlator.peaks(b);
+    // Where slopes disagree and outlines do not meet the score is nought but for rounding.
+    for (auto* maxima : {&expected, &got})
+      std::erase_if(*maxima, [](const Agreement& a) { return a.score < 1e-3F; });
     ASSERT_EQ(got.size(), expected.size());
     const auto by_place = [](const Agreement& x, const Agreement& y) {
       return std::pair(x.shift_u, x.shift_v) < std::pair(y.shift_u, y.shift_v);
@@ -187,7 +191,7 @@ TEST(Correlate, FieldsAreShorterThanBothMapsTogether) {
   const ReliefMap b = round_map(random, 52, 52);
   Correlator correlator(a, CorrelateOptions{});
   correlator.peaks(b);
-  EXPECT_LE(correlator.shifts(), 96L * 96L);
+  EXPECT_LE(correlator.shifts(), 100L * 100L);
 }
 
 TEST(Correlate, OrderIsAPermutationThatKeepsLikeSizesTogether) {

@@ -1,6 +1,7 @@
 #include "match/detail/correlate_kernel.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "match/detail/correlate_kernel.cpp"
@@ -44,7 +45,24 @@ struct Product : Products {
 };
 using FirstSlopes = Product<&Spectra::slopes, &Spectra::mask>;
 using SecondSlopes = Product<&Spectra::mask, &Spectra::slopes>;
-using Together = Product<&Spectra::slopes, &Spectra::slopes>;
+struct TogetherAndAlong : Products {
+  template <ComplexField Spectra::*Which>
+  HWY_INLINE Complexes product(std::size_t f) const {
+    return times_conjugate(load(fields.first.*Which, f), load(fields.second.*Which, f));
+  }
+  HWY_INLINE Complexes get(std::size_t row) const {
+    const Tag d;
+    const std::size_t f = at(row);
+    const auto slope = [&](const BorderFilter& filter) { return filter.slope.data(); };
+    const auto mean = [&](const BorderFilter& filter) { return filter.mean.data(); };
+    const auto power = hn::Add(
+        hn::Mul(hn::Set(d, slope(fields.border_u)[row]), hn::LoadU(d, mean(fields.border_v) + column)),
+        hn::Mul(hn::Set(d, mean(fields.border_u)[row]), hn::LoadU(d, slope(fields.border_v) + column)));
+    const Complexes together = product<&Spectra::slope_u>(f) + product<&Spectra::slope_v>(f);
+    const Complexes along = product<&Spectra::mask>(f) * power;
+    return {hn::Add(together.im, along.re), hn::Sub(together.re, along.im)};
+  }
+};
 
 struct Scratch {
   float* swing[2];
@@ -107,6 +125,7 @@ void transform_map(const CorrelateFields& fields, std::size_t width, std::size_t
   transform_fields(fields, map[0].data(), map[1].data(), width, height, to.packed);
   unpack(fields, to.packed, to.mask, to.energy);
   transform_fields(fields, map[2].data(), map[3].data(), width, height, to.slopes);
+  unpack(fields, to.slopes, to.slope_u, to.slope_v);
 }
 
 /// First half of an inverse transform.
@@ -177,9 +196,11 @@ HWY_INLINE void score(const CorrelateFields& fields, std::size_t u, const ScoreR
     const auto covariance = hn::Sub(sum(6), hn::Div(means, n));
     const auto variance = hn::Max(zero, hn::Sub(sum(1), hn::Div(squares, n)));
     const auto explained = hn::Div(hn::Add(covariance, covariance), hn::Add(variance, hn::Mul(noise, n)));
-    const auto chosen = hn::And(enough, hn::Gt(explained, zero));
-    const auto clamped = hn::IfThenElseZero(chosen, hn::Min(explained, most));
-    hn::StoreU(hn::IfThenElseZero(chosen, hn::Mul(atanh_of(clamped), hn::Sqrt(n))), d, to);
+    const auto clamped =
+        hn::IfThenElseZero(hn::And(enough, hn::Gt(explained, zero)), hn::Min(explained, most));
+    const auto outline = hn::Mul(sum(7), hn::Set(d, rule.outline));
+    const auto both = hn::Add(hn::Mul(atanh_of(clamped), hn::Sqrt(n)), outline);
+    hn::StoreU(hn::IfThenElseZero(enough, hn::Max(zero, both)), d, to);
   }
 }
 
@@ -187,7 +208,7 @@ void correlate_spectra(CorrelateFields& fields, const ScoreRule& rule) {
   transform_products<PixelsAndEnergy>(fields, fields.half[0]);
   transform_products<FirstSlopes>(fields, fields.half[1]);
   transform_products<SecondSlopes>(fields, fields.half[2]);
-  transform_products<Together>(fields, fields.half[3]);
+  transform_products<TogetherAndAlong>(fields, fields.half[3]);
   for (std::size_t u = 0; u < fields.size.width; u += kLines) {
     for (std::size_t k = 0; k < fields.half.size(); ++k) transform_sums(fields, k, u);
     score(fields, u, rule);
@@ -228,6 +249,8 @@ HWY_EXPORT(transform_map);
 HWY_EXPORT(correlate_spectra);
 HWY_EXPORT(find_maxima);
 
+constexpr double kTurn = 2.0 * 3.14159265358979323846;
+
 /// Rows and strides are whole vectors of the widest processor.
 constexpr std::size_t kBlock = 16;
 
@@ -253,6 +276,23 @@ void transform(CorrelateFields& fields, const ReliefMap& map, float scale, const
     for (float* row : rows) std::fill(row + width, row + whole_blocks(width), 0.0F);
   }
   HWY_DYNAMIC_DISPATCH(transform_map)(fields, width, height, to);
+}
+
+void set_filter(BorderFilter& filter, std::size_t length) {
+  filter.slope.reserve(whole_blocks(length));
+  filter.mean.reserve(whole_blocks(length));
+  for (std::size_t f = 0; f < length; ++f) {
+    double slope = 0.0;
+    double mean = 0.0;
+    for (std::size_t k = 0; k < kBorderSlope.size(); ++k) {
+      const double angle = kTurn * static_cast<double>(f) * (static_cast<double>(k) - kBorderReach) /
+                           static_cast<double>(length);
+      slope += static_cast<double>(kBorderSlope[k]) * std::sin(angle);
+      mean += static_cast<double>(kBorderMean[k]) * std::cos(angle);
+    }
+    filter.slope.data()[f] = static_cast<float>(slope * slope);
+    filter.mean.data()[f] = static_cast<float>(mean * mean);
+  }
 }
 
 }  // namespace
@@ -285,10 +325,13 @@ void resize(CorrelateFields& fields, FftSize size) {
   for (Field& field : fields.sums) field.reserve(pixels);
   for (ComplexField& field : fields.half) field.reserve(std::max(pixels, frequencies));
   for (Spectra* spectra : {&fields.first, &fields.second}) {
-    for (ComplexField* field : {&spectra->packed, &spectra->mask, &spectra->energy, &spectra->slopes}) {
+    for (ComplexField* field : {&spectra->packed, &spectra->mask, &spectra->energy, &spectra->slopes,
+                                &spectra->slope_u, &spectra->slope_v}) {
       field->reserve(frequencies);
     }
   }
+  set_filter(fields.border_u, size.width);
+  set_filter(fields.border_v, size.height);
   fields.scores.reserve((size.height + 2) * fields.score_stride);
   for (Field& field : fields.scratch) field.reserve(std::max(rows, columns) * 2 * kBlock);
 }
@@ -321,7 +364,7 @@ void local_maxima(const CorrelateFields& fields, std::vector<std::size_t>& place
 Sums sums_at(const CorrelateFields& fields, std::size_t place) {
   const std::size_t at = place / fields.size.width * fields.map_stride + place % fields.size.width;
   const auto sum = [&](std::size_t k) { return fields.sums[k].data()[at]; };
-  return {sum(0), sum(1), sum(6), sum(2), sum(3), sum(4), -sum(5)};
+  return {sum(0), sum(1), sum(6), sum(7), sum(2), sum(3), sum(4), -sum(5)};
 }
 
 }  // namespace rejoin::match::detail
