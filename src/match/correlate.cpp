@@ -70,7 +70,7 @@ struct Correlator::Impl {
   }
 
   detail::FftSize size_for(const ReliefMap& other) const {
-    // Borders reach as far beyond each end of a map, and may not meet those at the opposite ends either.
+    // Gradients reach beyond the ends of both maps, and must not meet around the field's end where the masks overlap enough.
     const auto side = [&](const std::vector<int>& lines, const std::vector<int>& other_lines) {
       return lines.size() + other_lines.size() + 2 * detail::kBorderReach -
              lines_to_spare(lines, other_lines, least(other));
