@@ -10,6 +10,7 @@
 #include <limits>
 #include <optional>
 
+#include "batch/inputs.hpp"
 #include "cli/command.hpp"
 
 namespace rejoin::cli {
@@ -111,6 +112,10 @@ void require_two_files(const std::string& a, const std::string& b) {
   if (a == b || std::filesystem::equivalent(a, b, unreadable)) {
     throw UsageError(b, "is the same file as " + a, "give two different fragments");
   }
+  const auto size = std::filesystem::file_size(a, unreadable);
+  if (unreadable || std::filesystem::file_size(b, unreadable) != size || unreadable) return;
+  if (batch::content_hash(a) == batch::content_hash(b))
+    throw UsageError(b, "is a copy of " + a, "give two different fragments");
 }
 
 }  // namespace rejoin::cli

@@ -23,13 +23,13 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, Value& value, co
                         const std::string& description) {
   std::string words;
   for (const auto& [word, meaning] : choices) words += (words.empty() ? "" : "|") + word;
-  const auto parse = [&value, choices, words](const std::string& text) {
+  const auto parse = [&value, choices, words, name](const std::string& text) {
     for (const auto& [word, meaning] : choices) {
       if (word != text) continue;
       value = meaning;
       return;
     }
-    throw CLI::ValidationError("'" + text + "' is none of " + words);
+    throw CLI::ValidationError(name, "'" + text + "' is none of " + words);
   };
   return app.add_option_function<std::string>(name, parse, words + ": " + description)->type_name("WORD");
 }
@@ -70,7 +70,7 @@ glm::dvec3 parse_direction(const std::string& option, const std::string& text);
 /// Unit directions of an option that may be given several times.
 std::vector<glm::dvec3> parse_directions(const std::string& option, const std::vector<std::string>& texts);
 
-/// \throws UsageError both paths lead to the same file
+/// \throws UsageError both paths lead to the same file, or to files of the same bytes
 void require_two_files(const std::string& a, const std::string& b);
 
 }  // namespace rejoin::cli

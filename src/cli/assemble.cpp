@@ -76,6 +76,7 @@ class AssembleCommand final : public Command {
     for (const auto& file : files) write_file(file, assembly_json(input, result));
     console.result(summary(input, result));
     for (const auto& file : files) console.result(fmt::format("wrote {}\n", file.string()));
+    if (out_ && result.groups == 0) console.result("nothing is placed, so there are no models to write\n");
     if (out_ && !result.cancelled) {
       const NothingToSave guard;
       for (const auto& file : write_assembly(*out_, input, result))
@@ -89,6 +90,10 @@ class AssembleCommand final : public Command {
 
   /// Matching a folder of scans takes long: what comes of it must have a place.
   void require_outputs() const {
+    std::error_code problem;
+    if (!std::filesystem::exists(input_, problem)) {
+      throw IoError(input_, "is not there", "give a run of rejoin batch, or the folder of the scans");
+    }
     if (!is_run(input_)) static_cast<void>(batch::find_scans(input_));  // refuses what is no folder of scans
     if (!json_ && !out_ && !is_run(input_)) {
       throw UsageError(input_, "is no run, so nothing would be kept of its assembly",

@@ -3,11 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <fstream>
 #include <optional>
 
 #include "cli/json_values.hpp"
 #include "core/error.hpp"
+#include "core/files.hpp"
 
 namespace rejoin::cli {
 namespace {
@@ -22,9 +22,7 @@ class Reader {
   Reader(const std::string& path, const std::vector<std::string>& names) : path_(path), names_(names) {}
 
   assembly::Constraints read() const {
-    std::ifstream file(path_);
-    if (!file) throw IoError(path_, "cannot be read", "check the path");
-    const ordered_json json = ordered_json::parse(file, nullptr, false);
+    const ordered_json json = ordered_json::parse(read_file(path_), nullptr, false);
     if (json.is_discarded()) throw InputError(path_, "is no JSON", kMend);
     if (!json.is_object()) fail("is no JSON object");
     for (const auto& [key, value] : json.items()) {

@@ -151,6 +151,7 @@ std::vector<std::filesystem::path> write_assembly(const std::filesystem::path& f
                                                   const AssembleInput& input,
                                                   const assembly::Result& result) {
   std::vector<std::filesystem::path> files;
+  if (result.groups == 0) return files;
   const std::filesystem::path matrices = folder / "cloudcompare";
   require_writable_folder(matrices);
   std::vector<mesh::Placed> parts;
@@ -163,7 +164,6 @@ std::vector<std::filesystem::path> write_assembly(const std::filesystem::path& f
   }
   files.push_back(folder / "assembled.mlp");
   write_file(files.back(), meshlab_project(input, result));
-  if (parts.empty()) return files;
   for (const char* name : {"assembled.glb", "assembled.ply"}) {
     files.push_back(folder / name);
     mesh::save_scene(files.back(), parts);

@@ -3,7 +3,6 @@
 
 #include <fmt/core.h>
 
-#include <fstream>
 #include <optional>
 
 #include "cli/arguments.hpp"
@@ -22,9 +21,7 @@ using nlohmann::ordered_json;
 /// The 4 x 4 matrix of a file: rejoin match's JSON, or the bare rows.
 /// \throws IoError it cannot be read   \throws InputError it holds no proper rigid motion
 Rigid read_pose(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw IoError(path, "cannot be read", "give the JSON of rejoin match");
-  const ordered_json json = ordered_json::parse(file, nullptr, false);
+  const ordered_json json = ordered_json::parse(read_file(path), nullptr, false);
   if (json.is_discarded()) throw InputError(path, "is no JSON", "give the JSON of rejoin match");
   const ordered_json& rows = json.is_object() && json.contains("pose") ? json["pose"] : json;
   const std::optional<Rigid> pose = rigid_from_json(rows);

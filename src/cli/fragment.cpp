@@ -4,6 +4,7 @@
 
 #include "cli/interrupt.hpp"
 #include "core/error.hpp"
+#include "core/words.hpp"
 #include "mesh/load.hpp"
 #include "mesh/painted_facets.hpp"
 
@@ -59,7 +60,11 @@ void use_painted_facets(const std::vector<std::string>& files, const std::vector
     for (match::Fragment* fragment : fragments) {
       auto facets = mesh::painted_facets(fragment->facets, fragment->surface.origin, painted);
       if (!facets) continue;
-      fragment->facets = std::move(*facets);
+      if (facets->left_out > 0) {
+        console.warning(fmt::format("{}: {} on too little of the surface to be a facet, left out", file,
+                                    counted(facets->left_out, "colour")));
+      }
+      fragment->facets = std::move(facets->segmentation);
       used = true;
     }
     if (!used) {

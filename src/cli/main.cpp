@@ -104,17 +104,34 @@ bool json_on_stdout(const CLI::App& app) {
                      [](const CLI::App* command) { return json_on_stdout(*command); });
 }
 
-/// CLI11's messages as one line with the way out.
+/// What is wrong with the words that nothing takes.  CLI11 would list them all, back to front.
+std::string unexpected(const std::vector<std::string>& words, const CLI::App& app,
+                       const std::string& command) {
+  const auto option = std::find_if(words.begin(), words.end(),
+                                   [](const std::string& word) { return word.size() > 1 && word[0] == '-'; });
+  if (option != words.end()) return fmt::format("{} is no option of {}", *option, command);
+  const std::vector<const CLI::App*> known = visible_subcommands(app);
+  if (known.empty()) return fmt::format("'{}' is one argument more than {} takes", words.front(), command);
+  std::string names;
+  for (const CLI::App* entry : known) names += (names.empty() ? "" : ", ") + entry->get_name();
+  return fmt::format("'{}' is no command; there are {}", words.front(), names);
+}
+
+/// What is wrong with the command line, as one line with the way out.
 int explain(const CLI::App& root, const CLI::ParseError& error) {
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
     return root.exit(error) == 0 ? kDone : kFailure;  // --help or --version
   }
-  std::string text = error.what();
+  const CLI::App* app = &root;
+  std::string command = "rejoin";
+  for (auto used = root.get_subcommands(); !used.empty(); used = app->get_subcommands()) {
+    app = used[0];
+    command += " " + app->get_name();
+  }
+  const std::vector<std::string> words = root.remaining(true);
+  std::string text = words.empty() ? error.what() : unexpected(words, *app, command);
   for (char& c : text) c = c == '\n' ? ' ' : c;
-  std::string command = "rejoin ";
-  for (auto used = root.get_subcommands(); !used.empty(); used = used[0]->get_subcommands())
-    command += used[0]->get_name() + " ";
-  fmt::print(stderr, "rejoin: {}; see {}--help\n", text, command);
+  fmt::print(stderr, "rejoin: {}; see {} --help\n", text, command);
   return kWrongUse;
 }
 

@@ -15,7 +15,7 @@ struct Entry {
 class OutlineCommand final : public Command {
  public:
   void define(CLI::App& app) override {
-    app.require_subcommand(1);
+    app.require_subcommand(0, 1);
     add(app, "calibrate", "Set the multi-scale method by known joins.", make_outline_calibrate_command());
     add(app, "match", "Find how flat piece B joins A.", make_outline_match_command());
     add(app, "assemble", "Put the pieces of a folder together.", make_outline_assemble_command());

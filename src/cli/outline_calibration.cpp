@@ -1,13 +1,13 @@
 #include "cli/outline_calibration.hpp"
 
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "cli/json_values.hpp"
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/version.hpp"
 
 namespace rejoin::cli {
@@ -18,9 +18,7 @@ using nlohmann::ordered_json;
 constexpr const char* kSchema = "rejoin.outline-calibration/1";
 
 ordered_json parse_file(const std::string& path, const char* mend) {
-  std::ifstream file(path);
-  if (!file) throw IoError(path, "cannot be read", mend);
-  ordered_json json = ordered_json::parse(file, nullptr, false);
+  ordered_json json = ordered_json::parse(read_file(path), nullptr, false);
   if (json.is_discarded() || !json.is_object()) throw InputError(path, "is no JSON object", mend);
   return json;
 }

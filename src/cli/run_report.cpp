@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -13,6 +12,7 @@
 #include "cli/assemble_input.hpp"
 #include "cli/json_values.hpp"
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/words.hpp"
 #include "mesh/load.hpp"
 #include "mesh/surface.hpp"
@@ -51,8 +51,7 @@ class AssemblyReader {
 
  private:
   void read_fields() {
-    std::ifstream file(path_);
-    const ordered_json json = ordered_json::parse(file, nullptr, false);
+    const ordered_json json = ordered_json::parse(read_file(path_), nullptr, false);
     if (!json.is_object() || json.value("schema", "") != "rejoin.assembly/1")
       refuse(path_, "is no assembly (schema rejoin.assembly/1)");
     if (!json.contains("fragments") || !json["fragments"].is_object()) refuse(path_, "has no \"fragments\"");

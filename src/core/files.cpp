@@ -7,7 +7,9 @@
 #include <cstring>
 #include <fstream>
 #include <iostream>
+#include <sstream>
 #include <string>
+#include <utility>
 
 #include "core/error.hpp"
 
@@ -43,6 +45,32 @@ bool is_device(const fs::path& path) {
 }
 
 }  // namespace
+
+std::string read_file(const fs::path& path) {
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) throw IoError(path.string(), "is a folder", "name a file");
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    throw IoError(path.string(), std::string("cannot be opened (") + std::strerror(errno) + ")",
+                  "check the path and its permissions");
+  }
+  std::string bytes;
+  file.seekg(0, std::ios::end);
+  if (const std::streamoff size = file.tellg(); size >= 0) {
+    bytes.resize(static_cast<std::size_t>(size));
+    file.seekg(0);
+    file.read(bytes.data(), size);
+  } else {  // a pipe has no size
+    file.clear();
+    std::ostringstream all;
+    if (file.peek() != std::ifstream::traits_type::eof()) all << file.rdbuf();
+    bytes = std::move(all).str();
+  }
+  if (file.bad() || (file.fail() && !bytes.empty()))
+    throw IoError(path.string(), "cannot be read", "check the disk or copy the file again");
+  return bytes;
+}
 
 void require_writable_file(const fs::path& path) {
   if (is_stdout(path)) return;

@@ -1,15 +1,19 @@
-/// Files that the program writes.
+/// Files that the program reads and writes.
 #pragma once
 
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
+#include <string>
 #include <string_view>
 
 namespace rejoin {
 
 /// The path that stands for the standard output in write_file() and require_writable_file().
 inline constexpr std::string_view kStdout = "-";
+
+/// All bytes of a file, or of a pipe until it ends.  \throws IoError it is a folder or cannot be read; with the system's reason
+std::string read_file(const std::filesystem::path& path);
 
 /// Finds out now, before the long work, whether the file can be written then; leaves no trace.
 /// \throws IoError it cannot

@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <sstream>
+#include <system_error>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "mesh/detail/soup.hpp"
 
 namespace rejoin::mesh {
@@ -48,29 +46,7 @@ const Format& format_of(const std::filesystem::path& path) {
 namespace detail {
 
 Source read_source(const std::filesystem::path& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error))
-    throw IoError(path.string(), "is a folder", "name a mesh file");
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) {
-    throw IoError(path.string(), fmt::format("cannot be opened ({})", std::strerror(errno)),
-                  "check the path and its permissions");
-  }
-  Source source{path.string(), path, {}};
-  stream.seekg(0, std::ios::end);
-  if (const std::streamoff size = stream.tellg(); size >= 0) {
-    source.bytes.resize(static_cast<std::size_t>(size));
-    stream.seekg(0);
-    stream.read(source.bytes.data(), size);
-  } else {  // a pipe has no size
-    stream.clear();
-    std::ostringstream all;
-    if (stream.peek() != std::ifstream::traits_type::eof()) all << stream.rdbuf();
-    source.bytes = std::move(all).str();
-  }
-  if (stream.bad() || (stream.fail() && !source.bytes.empty())) {
-    throw IoError(source.name, "cannot be read", "check the disk or copy the file again");
-  }
+  Source source{path.string(), path, read_file(path)};
   if (source.bytes.empty())
     throw InputError(source.name, "is empty (0 bytes)", "export or copy the scan again");
   return source;

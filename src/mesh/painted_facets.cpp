@@ -65,13 +65,14 @@ std::vector<Paint> paint_samples(const Segmentation& s, const glm::dvec3& origin
 
 }  // namespace
 
-std::optional<Segmentation> painted_facets(const Segmentation& segmentation, const glm::dvec3& origin,
-                                           const Mesh& painted) {
+std::optional<PaintedFacets> painted_facets(const Segmentation& segmentation, const glm::dvec3& origin,
+                                            const Mesh& painted) {
   const std::vector<Paint> paints = paint_samples(segmentation, origin, painted);
   const auto known = std::count_if(paints.begin(), paints.end(), [](const Paint& p) { return p.known; });
   if (static_cast<double>(known) < kCovered * static_cast<double>(paints.size())) return std::nullopt;
 
-  Segmentation result = segmentation;
+  PaintedFacets painted_ones{segmentation, 0};
+  Segmentation& result = painted_ones.segmentation;
   std::map<std::tuple<bool, int>, std::vector<std::uint32_t>> groups;
   for (std::uint32_t i = 0; i < paints.size(); ++i) {
     if (!paints[i].known) continue;
@@ -80,11 +81,15 @@ std::optional<Segmentation> painted_facets(const Segmentation& segmentation, con
   }
   std::vector<std::vector<std::uint32_t>> members;
   for (auto& [key, samples] : groups) {
-    if (samples.size() >= detail::smallest_facet(result)) members.push_back(std::move(samples));
+    if (2 * samples.size() >= detail::smallest_facet(result)) {
+      members.push_back(std::move(samples));
+    } else if (result.surface[samples.front()] == Surface::Fracture) {
+      ++painted_ones.left_out;
+    }
   }
   static_cast<Cut&>(result) = detail::cut_into(result, std::move(members));
   result.creased = {};
-  return result;
+  return painted_ones;
 }
 
 }  // namespace rejoin::mesh

@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/words.hpp"
 #include "outline/detail/readers.hpp"
 #include "outline/polygon.hpp"
@@ -31,10 +30,7 @@ Kind kind_of(const fs::path& path) {
 }
 
 std::string read_text(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw IoError(path, "cannot be read", "check the path and the rights");
-  std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  if (file.bad()) throw IoError(path, "cannot be read", "it may be a folder");
+  std::string text = read_file(path);
   if (text.empty()) throw InputError(path, "is empty", "save it again");
   return text;
 }

@@ -83,6 +83,14 @@ TEST_F(BrokenBall, AssembleOfAFolderMatchesAndPutsItTogether) {
   EXPECT_EQ(read_file(out + "/run/assembly.json"), read_file(json_)) << "the page shows the last assembly";
 }
 
+TEST_F(BrokenBall, WhatIsNotThereIsNeitherRunNorFolder) {
+  const Finished finished = run({"assemble", folder_ / "nosuch", "--json", json_});
+  EXPECT_EQ(finished.exit_code, 1);
+  EXPECT_TRUE(is_one_line(finished.err)) << finished.err;
+  EXPECT_NE(finished.err.find("is not there"), std::string::npos) << finished.err;
+  EXPECT_NE(finished.err.find("a run of rejoin batch"), std::string::npos) << finished.err;
+}
+
 TEST_F(BrokenBall, AFolderOfScansIsNotMatchedForNothing) {
   const Finished finished = run({"assemble", scans_});
   EXPECT_EQ(finished.exit_code, 2);

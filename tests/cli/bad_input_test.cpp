@@ -51,6 +51,16 @@ void expect_failure(const Finished& finished, const std::string& names) {
   EXPECT_NE(finished.err.find(names), std::string::npos) << finished.err;
 }
 
+TEST(CopiedFile, IsRefusedAsTheOtherFragment) {
+  const TemporaryFolder folder;
+  write_file(folder / "a.ply", kTetrahedron);
+  write_file(folder / "b.ply", kTetrahedron);
+  const Finished finished = run({"match", folder / "a.ply", folder / "b.ply"});
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_TRUE(is_one_line(finished.err)) << finished.err;
+  EXPECT_NE(finished.err.find("b.ply: is a copy of "), std::string::npos) << finished.err;
+}
+
 TEST_P(BadFileTest, IsNamedInOneLineAndExitsWithOne) {
   const TemporaryFolder folder;
   const std::string path = folder / GetParam().file;

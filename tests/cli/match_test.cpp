@@ -170,7 +170,6 @@ TEST_F(MatchCommand, OutHoldsTheModelsAndThePictures) {
   }
 }
 
-// Painting every fracture facet of B but the joining one grey leaves one facet, and the same pose.
 TEST_F(MatchCommand, FacetsTellTheNoiseOfAScan) {
   const auto outcome = run({"facets", b, "--json", json});
   ASSERT_EQ(outcome.exit_code, 0);
@@ -180,6 +179,7 @@ TEST_F(MatchCommand, FacetsTellTheNoiseOfAScan) {
   EXPECT_NE(outcome.out.find("noise "), std::string::npos);
 }
 
+// Painting every fracture facet of B but the joining one grey leaves one facet, and the same pose.
 TEST_F(MatchCommand, PaintedFacetsAreTheOnesThatMayJoin) {
   const std::string paint = folder / "paint.ply";
   ASSERT_EQ(run({"facets", b, "--ply", paint, "--json", json}).exit_code, 0);

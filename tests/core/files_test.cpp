@@ -1,6 +1,7 @@
 #include "core/files.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -33,6 +34,31 @@ class Files : public ::testing::Test {
 
   fs::path folder_;
 };
+
+TEST_F(Files, ReadFileGivesEveryByteOfFilesAndPipes) {
+  const std::string bytes("a\0b\r\n", 5);
+  write_file(folder_ / "x", bytes);
+  write_file(folder_ / "empty", "");
+  EXPECT_EQ(read_file(folder_ / "x"), bytes);
+  EXPECT_EQ(read_file(folder_ / "empty"), "");
+  const fs::path pipe = folder_ / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  std::thread writer([&] { std::ofstream(pipe, std::ios::binary) << bytes; });
+  EXPECT_EQ(read_file(pipe), bytes);
+  writer.join();
+}
+
+TEST_F(Files, MissingFileIsToldWithTheSystemsReason) {
+  try {
+    static_cast<void>(read_file(folder_ / "no.png"));
+    FAIL() << "a missing file was read";
+  } catch (const IoError& error) {
+    EXPECT_NE(std::string(error.what()).find("no.png: cannot be opened (No such file or directory)"),
+              std::string::npos)
+        << error.what();
+  }
+  EXPECT_THROW(static_cast<void>(read_file(folder_)), IoError);
+}
 
 TEST_F(Files, WrittenFileHoldsTheBytesAndLeavesNothingBeside) {
   const std::string bytes("a\0b\r\n", 5);

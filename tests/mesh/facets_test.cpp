@@ -304,8 +304,10 @@ TEST(PaintedFacets, OneSideOfABoxInTwoColoursIsTwoFractureFacets) {
                                       : glm::u8vec3(20, 20, 250));
   }
   const auto found = segment(mesh);
-  const auto s = painted_facets(found, mesh.origin, painted_by(mesh, colours));
-  ASSERT_TRUE(s);
+  const auto painted = painted_facets(found, mesh.origin, painted_by(mesh, colours));
+  ASSERT_TRUE(painted);
+  EXPECT_EQ(painted->left_out, 0U);
+  const Segmentation* s = &painted->segmentation;
   std::vector<const Facet*> fracture;
   for (const Facet& facet : s->facets) {
     if (facet.fracture) fracture.push_back(&facet);
@@ -319,6 +321,30 @@ TEST(PaintedFacets, OneSideOfABoxInTwoColoursIsTwoFractureFacets) {
   for (const std::uint32_t i : fracture[0]->samples) EXPECT_EQ(s->surface[i], Surface::Fracture);
 }
 
+TEST(PaintedFacets, ColourOnAFewFacesIsNoFacetAndCounted) {
+  const Mesh mesh = box({40, 30, 20}, 20, flat);
+  std::vector<glm::u8vec3> colours(mesh.faces.size(), {250, 20, 20});
+  colours.front() = {20, 20, 250};  // one of 4,800 faces
+  const auto painted = painted_facets(segment(mesh), mesh.origin, painted_by(mesh, colours));
+  ASSERT_TRUE(painted);
+  EXPECT_EQ(painted->segmentation.facets.size(), 1U);
+  EXPECT_EQ(painted->left_out, 1U);
+}
+
+TEST(PaintedFacets, FacetsThatNobodyChangedAreThereAgain) {
+  const Mesh mesh = box({40, 30, 2}, 20, flat);  // with narrow sides
+  const Segmentation found = segment(mesh);
+  const std::vector<int> facets = facet_of_faces(found, sample_of_faces(found, mesh));
+  std::vector<glm::u8vec3> colours;
+  for (const int facet : facets) {
+    colours.push_back(facet < 0 ? glm::u8vec3(60) : glm::u8vec3(250, 30 * facet, 255 - 30 * facet));
+  }
+  const auto painted = painted_facets(found, mesh.origin, painted_by(mesh, colours));
+  ASSERT_TRUE(painted);
+  EXPECT_EQ(painted->segmentation.facets.size(), found.facets.size());
+  EXPECT_EQ(painted->left_out, 0U);
+}
+
 TEST(PaintedFacets, PaintOfAnotherOriginIsFound) {
   Mesh mesh = shell(60, 40);
   mesh.origin = {1000, -500, 20};
@@ -326,8 +352,9 @@ TEST(PaintedFacets, PaintOfAnotherOriginIsFound) {
   Mesh painted = painted_by(mesh, std::vector<glm::u8vec3>(mesh.faces.size(), {250, 20, 20}));
   for (glm::vec3& v : painted.vertices) v += glm::vec3(7, 8, 9);
   painted.origin -= glm::dvec3(7, 8, 9);
-  const auto s = painted_facets(found, mesh.origin, painted);
-  ASSERT_TRUE(s);
+  const auto by_paint = painted_facets(found, mesh.origin, painted);
+  ASSERT_TRUE(by_paint);
+  const Segmentation* s = &by_paint->segmentation;
   ASSERT_EQ(s->facets.size(), 1U);
   EXPECT_TRUE(s->facets[0].fracture);
   EXPECT_EQ(s->facets[0].samples.size(), s->samples.size());

@@ -2,12 +2,11 @@
 
 #include <fmt/core.h>
 
-#include <fstream>
-#include <iterator>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 
 namespace rejoin::outline::detail {
 namespace {
@@ -71,14 +70,6 @@ std::optional<ImageHeader> tiff_header(std::string_view bytes) {
   return header;
 }
 
-std::string read_bytes(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw IoError(path, "cannot be read", "check the path and the rights");
-  std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  if (file.bad()) throw IoError(path, "cannot be read", "it may be a folder");
-  return bytes;
-}
-
 /// Grey, colour, with and without alpha, 8 or 16 bits -> floats 0..1.
 cv::Mat unify(const cv::Mat& image, const std::string& path) {
   double scale = 0.0;
@@ -106,7 +97,7 @@ std::optional<ImageHeader> image_header(std::string_view bytes) {
 }
 
 cv::Mat load_image(const std::string& path, std::size_t max_pixels) {
-  const std::string bytes = read_bytes(path);
+  const std::string bytes = read_file(path);
   if (bytes.empty()) throw InputError(path, "is empty", "save the picture again");
   const std::optional<ImageHeader> header = image_header(bytes);
   if (!header) throw InputError(path, "is no PNG, JPEG or TIFF picture", "convert it to PNG");
