@@ -1,4 +1,4 @@
-/// Neighbours of points (nanoflann behind it).
+/// Neighbours of points.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace rejoin::mesh {
 
-/// k-d tree over points that it keeps a copy of.  Const members may be called from several threads.
+/// Looks for points among those that it keeps a copy of.  Const members may be called from several threads.
 class PointIndex {
  public:
   explicit PointIndex(std::span<const glm::vec3> points);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -45,6 +46,36 @@ TEST(PointIndex, NearestWithinIsThatOfAllPointsOrNone) {
   }
   EXPECT_GT(hits, kAsked / 10);
   EXPECT_LT(hits, kAsked * 9 / 10);
+}
+
+TEST(PointIndex, NearestIsThatOfAllPointsForAnyNumberOfThem) {
+  Random random(8);
+  for (std::size_t count = 1; count < 300; ++count) {
+    std::vector<glm::vec3> points(count);
+    for (glm::vec3& point : points) point = random_point(random, 1.0F);
+    if (count % 3 == 0) {  // in one plane, and some twice
+      for (glm::vec3& point : points) point.y = 0.25F;
+      points.insert(points.end(), points.begin(), points.begin() + static_cast<std::ptrdiff_t>(count / 2));
+    }
+    const PointIndex index(points);
+    for (int k = 0; k < 20; ++k) {
+      const glm::vec3 asked = random_point(random, k < 10 ? 1.0F : 10.0F);
+      const auto found = index.nearest(asked);
+      ASSERT_TRUE(found) << count << " points";
+      const float least =
+          least_distance(points, asked, std::numeric_limits<float>::infinity()).value_or(-1.0F);
+      EXPECT_FLOAT_EQ(found->second, least) << count << " points";
+      EXPECT_FLOAT_EQ(glm::distance(points[found->first], asked), least) << count << " points";
+    }
+  }
+}
+
+TEST(PointIndex, ManyEqualPointsAreOne) {
+  const PointIndex index(std::vector<glm::vec3>(1000, glm::vec3(1, 2, 3)));
+  const auto found = index.nearest_within({1, 2, 4}, 1.5F);
+  ASSERT_TRUE(found);
+  EXPECT_FLOAT_EQ(found->second, 1.0F);
+  EXPECT_FALSE(index.nearest_within({1, 2, 4}, 1.0F));
 }
 
 TEST(PointIndex, WithoutPointsNothingIsNear) {
