@@ -3,27 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nanoflann.hpp>
 #include <vector>
 
 #include "core/random.hpp"
+#include "mesh/detail/kd_tree.hpp"
 #include "mesh/point_index.hpp"
 
 namespace rejoin::mesh {
 namespace {
-
-struct Points {
-  std::vector<glm::vec3> data;
-  std::size_t kdtree_get_point_count() const { return data.size(); }
-  float kdtree_get_pt(std::size_t i, std::size_t axis) const { return data[i][static_cast<int>(axis)]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box& /*unused*/) const {
-    return false;
-  }
-};
-
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Points>, Points, 3,
-                                                 std::uint32_t>;
 
 /// nanoflann's result of a search for the nearest point that starts with a limit.
 class NearestWithin {
@@ -84,8 +71,8 @@ void by_nanoflann(benchmark::State& state) {
   const auto count = static_cast<std::size_t>(state.range(0));
   const auto radius = static_cast<float>(static_cast<double>(state.range(1)) * spacing_of(count));
   const std::vector<glm::vec3> queries = asked(count);
-  const Points points{surface(count)};
-  const Tree tree(3, points, nanoflann::KDTreeSingleIndexAdaptorParams(12));
+  const detail::KdPoints points{surface(count)};
+  const detail::KdTree tree(3, points, nanoflann::KDTreeSingleIndexAdaptorParams(detail::kKdLeaf));
   std::size_t k = 0;
   while (state.KeepRunning()) {
     NearestWithin nearest(radius * radius);
@@ -103,9 +90,9 @@ void made_by_index(benchmark::State& state) {
 BENCHMARK(made_by_index)->Arg(1000)->Arg(10000)->Arg(100000);
 
 void made_by_nanoflann(benchmark::State& state) {
-  const Points points{surface(static_cast<std::size_t>(state.range(0)))};
+  const detail::KdPoints points{surface(static_cast<std::size_t>(state.range(0)))};
   while (state.KeepRunning()) {
-    const Tree tree(3, points, nanoflann::KDTreeSingleIndexAdaptorParams(12));
+    const detail::KdTree tree(3, points, nanoflann::KDTreeSingleIndexAdaptorParams(detail::kKdLeaf));
     benchmark::DoNotOptimize(&tree);
   }
 }

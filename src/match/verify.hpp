@@ -12,7 +12,7 @@ constexpr double kSure = 0.99;     ///< score from which the verdict is "join"
 constexpr double kPossible = 0.3;  ///< and from which it is "unsure"
 
 /// Strength of the best pose after the first alignments from which a pair is promising.  \source docs/scoring.md
-constexpr double kWorthwhile = 1.5;
+constexpr double kWorthwhile = 1.0;
 
 /// Strength -> log-odds that the pieces join.
 double log_odds(double strength);

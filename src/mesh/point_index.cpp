@@ -4,39 +4,23 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
-#include <nanoflann.hpp>
 
+#include "mesh/detail/kd_tree.hpp"
 #include "mesh/detail/point_tree.hpp"
 
 namespace rejoin::mesh {
-namespace {
-
-struct Points {
-  std::vector<glm::vec3> data;
-  std::size_t kdtree_get_point_count() const { return data.size(); }
-  float kdtree_get_pt(std::size_t i, std::size_t axis) const { return data[i][static_cast<int>(axis)]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box& /*unused*/) const {
-    return false;
-  }
-};
-
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, Points>, Points, 3,
-                                                 std::uint32_t>;
-
-}  // namespace
-
 /// Each of the trees is made when it is first asked: few users ask both.
 struct PointIndex::Impl {
-  Points points;
+  detail::KdPoints points;
   std::once_flag made_tree;
-  std::unique_ptr<Tree> tree;  ///< for all that are near
+  std::unique_ptr<detail::KdTree> tree;  ///< for all that are near
   std::once_flag made_nearest;
   detail::PointTree nearest;  ///< for the nearest
 
-  const Tree& ready_tree() {
+  const detail::KdTree& ready_tree() {
     std::call_once(made_tree, [this] {
-      tree = std::make_unique<Tree>(3, points, nanoflann::KDTreeSingleIndexAdaptorParams(12));
+      tree = std::make_unique<detail::KdTree>(3, points,
+                                              nanoflann::KDTreeSingleIndexAdaptorParams(detail::kKdLeaf));
     });
     return *tree;
   }
