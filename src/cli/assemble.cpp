@@ -76,8 +76,8 @@ class AssembleCommand final : public Command {
     for (const auto& file : files) write_file(file, assembly_json(input, result));
     console.result(summary(input, result));
     for (const auto& file : files) console.result(fmt::format("wrote {}\n", file.string()));
-    if (out_ && result.groups == 0) console.result("nothing is placed, so there are no models to write\n");
     if (out_ && !result.cancelled) {
+      if (result.groups == 0) console.result("nothing is placed, so there are no models to write\n");
       const NothingToSave guard;
       for (const auto& file : write_assembly(*out_, input, result))
         console.result(fmt::format("wrote {}\n", file.string()));

@@ -81,6 +81,20 @@ TEST_F(BrokenBall, AssembleOfAFolderMatchesAndPutsItTogether) {
   EXPECT_TRUE(apart["fragments"]["fragment_00.ply"]["pose"].is_null());
   EXPECT_FALSE(apart["fragments"]["fragment_00.ply"]["reason"].get<std::string>().empty());
   EXPECT_EQ(read_file(out + "/run/assembly.json"), read_file(json_)) << "the page shows the last assembly";
+
+  // Of nothing there are no models, and that is told.
+  ordered_json none = ordered_json::array();
+  for (const auto& [a, of_a] : result["fragments"].items()) {
+    for (const auto& [b, of_b] : result["fragments"].items()) {
+      if (a < b) none.push_back({a, b});
+    }
+  }
+  write_file(wishes, ordered_json({{"must_not_join", none}}).dump());
+  const std::string empty = folder_ / "empty";
+  const Finished nothing = run({"assemble", out + "/run", "--out", empty, "--constraints", wishes});
+  EXPECT_EQ(nothing.exit_code, 0) << nothing.err;
+  EXPECT_NE(nothing.out.find("nothing is placed"), std::string::npos) << nothing.out;
+  EXPECT_TRUE(std::filesystem::is_empty(empty));
 }
 
 TEST_F(BrokenBall, WhatIsNotThereIsNeitherRunNorFolder) {
