@@ -44,7 +44,7 @@ class Work {
         copies_(store::copies(equal_sized_)),
         tiles_(tiles_of(take_copies_off(), options.shard)),
         run_(open(output)),
-        shelf_(output / "fragments") {}
+        shelf_(output / kCacheName) {}
 
   Summary run() {
     begin();
@@ -58,7 +58,7 @@ class Work {
 
  private:
   static store::Run open(const fs::path& output) {
-    require_writable_folder(output / "fragments");
+    require_writable_folder(output / kCacheName);
     return store::Run::write(output);
   }
 

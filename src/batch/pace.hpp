@@ -11,7 +11,7 @@ class Pace {
  public:
   void start() { begin_ = std::chrono::steady_clock::now(); }
 
-  /// \param left  items to do   \return seconds; 0 before the first item is done
+  /// \param left  items to do   \return seconds
   double done_one(std::size_t left) {
     ++done_;
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin_;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/parallel.hpp"
 #include "mesh/load.hpp"
 #include "mesh/save.hpp"
@@ -32,6 +33,7 @@ fs::path kept_file(const store::Fragment& fragment, const fs::path& cache) {
 /// \throws StoreError the folder refuses the file: our disk is at fault, not the scan
 void keep(const fs::path& kept, const mesh::Mesh& surface) {
   try {
+    require_writable_folder(kept.parent_path());
     mesh::save(kept, surface);
   } catch (const IoError& error) {
     throw StoreError(kept.string(), "a prepared scan cannot be kept",
@@ -75,6 +77,25 @@ std::optional<mesh::Mesh> kept_surface(const store::Fragment& fragment, const fs
     return mesh::load(kept).mesh;
   } catch (const Error&) {
     return std::nullopt;  // cut short by a power failure: made again
+  }
+}
+
+void gather_surfaces(const std::vector<fs::path>& caches, const fs::path& cache) {
+  try {
+    require_writable_folder(cache);
+    for (const fs::path& from : caches) {
+      if (!fs::is_directory(from)) continue;
+      for (const auto& entry : fs::directory_iterator(from)) {
+        const fs::path to = cache / entry.path().filename();
+        if (!entry.is_regular_file() || fs::exists(to)) continue;
+        std::error_code other_disk;
+        fs::create_hard_link(entry.path(), to, other_disk);
+        if (other_disk) fs::copy_file(entry.path(), to);
+      }
+    }
+  } catch (const std::exception& error) {
+    throw StoreError(cache.string(), "prepared scans cannot be kept",
+                     fmt::format("free some space and run the command again ({})", error.what()));
   }
 }
 

@@ -15,16 +15,23 @@
 
 namespace rejoin::batch {
 
+/// The folder of a run that keeps the surfaces of its scans.
+inline constexpr const char* kCacheName = "fragments";
+
 /// Loads the fragment's surface for matching: the one kept under `cache` if there is one, else from its scan, whose surface is then
 /// kept (Draco, named after the content's hash).  What is matched is always the kept surface, so that the first run and later ones give
 /// the same bytes.
 /// \param cache  folder, made if it is not there
-/// \throws InputError, IoError the scan cannot be used, or the cache not written
+/// \throws InputError, IoError the scan cannot be used   \throws StoreError the cache cannot be written
 match::Fragment load_prepared(const store::Fragment& fragment, const std::filesystem::path& cache,
                               const Context& context);
 
 /// The surface kept under `cache`, if it is there and whole.
 std::optional<mesh::Mesh> kept_surface(const store::Fragment& fragment, const std::filesystem::path& cache);
+
+/// Puts the surfaces that several runs keep into one cache, as links to the same files where the disk can.
+/// \throws StoreError the cache cannot be written
+void gather_surfaces(const std::vector<std::filesystem::path>& caches, const std::filesystem::path& cache);
 
 /// The prepared fragments that the pairs in hand need.
 class Shelf {
@@ -36,7 +43,7 @@ class Shelf {
 
   /// Puts these fragments on the shelf, side by side, and takes all others off.  One that is marked bad, or turns out so, is left out.
   /// After a cancel some may be missing.
-  /// \throws IoError the cache cannot be written
+  /// \throws StoreError the cache cannot be written
   void hold(const std::vector<store::Fragment>& wanted, const Context& context, const Told& told);
 
   /// nullptr if it is not on the shelf.

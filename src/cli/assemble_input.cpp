@@ -22,7 +22,7 @@ namespace {
 match::Fragment load_one(const store::Fragment& fragment, const fs::path& folder, Console& console,
                          const Context& context) {
   try {
-    return batch::load_prepared(fragment, folder / "fragments", context);
+    return batch::load_prepared(fragment, folder / batch::kCacheName, context);
   } catch (const StoreError&) {
     return load_fragment(fragment.path, console, context);
   }

@@ -26,8 +26,8 @@ std::string man_page(const CLI::App& app, const std::string& title) {
   const auto commands = visible_subcommands(app);
   if (!commands.empty()) page += ".SH COMMANDS\n";
   for (const CLI::App* command : commands) {
-    page += fmt::format(".TP\n\\fB{}\\fR\n{}  See \\fBrejoin\\-{}\\fR(1).\n", command->get_name(),
-                        escaped(command->get_description()), command->get_name());
+    page += fmt::format(".TP\n\\fB{}\\fR\n{}  See \\fB{}\\fR(1).\n", command->get_name(),
+                        escaped(command->get_description()), escaped(title + "-" + command->get_name()));
   }
   for (const HelpGroup& group : help_groups(app)) {
     page += fmt::format(".SH {}\n", group.heading);
@@ -51,20 +51,39 @@ std::string long_options(const CLI::App& app) {
   return words;
 }
 
+/// Sets the words that may follow a command; of one with commands of its own, those of the command named next.
+std::string words_of(const CLI::App& command, const std::string& everywhere) {
+  const std::vector<const CLI::App*> own = visible_subcommands(command);
+  std::string text = fmt::format("words=\"{}{}", long_options(command), everywhere);
+  for (const CLI::App* sub : own) text += sub->get_name() + " ";
+  text += "\"";
+  if (own.empty()) return text;
+  text += "; case ${COMP_WORDS[2]} in ";
+  for (const CLI::App* sub : own)
+    text += fmt::format("{}) words=\"{}{}\" ;; ", sub->get_name(), long_options(*sub), everywhere);
+  return text + "esac";
+}
+
+void write_man_pages(const CLI::App& app, const std::string& title, const std::filesystem::path& folder) {
+  write_file(folder / (title + ".1"), man_page(app, title));
+  for (const CLI::App* command : visible_subcommands(app))
+    write_man_pages(*command, title + "-" + command->get_name(), folder);
+}
+
 std::string completion(const CLI::App& root) {
   std::string commands;
   std::string cases;
   for (const CLI::App* command : visible_subcommands(root)) {
     commands += command->get_name() + " ";
-    cases += fmt::format("    {}) words=\"{}{}\" ;;\n", command->get_name(), long_options(*command),
-                         long_options(root));
+    cases += fmt::format("    {}) {} ;;\n", command->get_name(), words_of(*command, long_options(root)));
   }
   return "_rejoin() {\n"
          "  local current=${COMP_WORDS[COMP_CWORD]} words\n"
          "  case ${COMP_WORDS[1]} in\n" +
          cases + fmt::format("    *) words=\"{}{}\" ;;\n", commands, long_options(root)) +
          "  esac\n"
-         "  [[ $current == -* || $COMP_CWORD -eq 1 ]] && COMPREPLY=($(compgen -W \"$words\" -- "
+         "  [[ $current == -* || $COMP_CWORD -eq 1 || ( ${COMP_WORDS[1]} == outline && $COMP_CWORD -eq 2 ) "
+         "]] && COMPREPLY=($(compgen -W \"$words\" -- "
          "\"$current\"))\n"
          "}\n"
          "complete -o default -F _rejoin rejoin\n";
@@ -79,11 +98,7 @@ class GenerateDocsCommand final : public Command {
   ExitCode run(Console& /*console*/, Context& /*context*/) override {
     const std::filesystem::path folder(folder_);
     require_writable_folder(folder);
-    write_file(folder / "rejoin.1", man_page(root_, "rejoin"));
-    for (const CLI::App* command : visible_subcommands(root_)) {
-      const std::string title = "rejoin-" + command->get_name();
-      write_file(folder / (title + ".1"), man_page(*command, title));
-    }
+    write_man_pages(root_, "rejoin", folder);
     write_file(folder / "rejoin.bash", completion(root_));
     return kDone;
   }

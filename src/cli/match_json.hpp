@@ -7,7 +7,7 @@
 
 namespace rejoin::cli {
 
-/// \param seconds  wall time of the whole run; the only value that may differ between two equal runs
+/// \param seconds  wall time of the whole run; with the seconds of the stages all that may differ between two equal runs
 std::string match_json(const match::Fragment& a, const match::Fragment& b, const match::Options& options,
                        const match::Result& result, double seconds);
 

@@ -3,10 +3,12 @@
 
 #include <fmt/core.h>
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "batch/shelf.hpp"
 #include "batch/table.hpp"
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
@@ -29,6 +31,9 @@ class MergeCommand final : public Command {
     require_writable_folder(out_);
     const NothingToSave guard;
     const store::Merged merged = store::merge({runs_.begin(), runs_.end()}, out_);
+    std::vector<std::filesystem::path> caches;
+    for (const std::string& run : runs_) caches.push_back(std::filesystem::path(run) / batch::kCacheName);
+    batch::gather_surfaces(caches, std::filesystem::path(out_) / batch::kCacheName);
     const store::Run whole = store::Run::open(out_);
     batch::write_table(whole, std::filesystem::path(out_) / batch::kTableName);
     console.result(counted(merged.fragments, "fragment") + ", " + counted(merged.pairs, "pair"));

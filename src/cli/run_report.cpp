@@ -159,7 +159,7 @@ void read_scans(report::RunReport& report, const std::vector<store::Fragment>& s
   const std::size_t count = report.fragments.size();
   const std::size_t faces =
       std::clamp(kMostFaces / std::max<std::size_t>(1, count), kLeastFaces, kFragmentFaces);
-  SurfaceReader reader(folder / "fragments", faces);
+  SurfaceReader reader(folder / batch::kCacheName, faces);
   bool any = false;
   for (std::size_t k = 0; k < count && !context.cancelled(); ++k) {
     context.report("scans", static_cast<double>(k) / static_cast<double>(count));

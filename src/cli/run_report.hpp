@@ -10,7 +10,7 @@
 namespace rejoin::cli {
 
 /// Reads RUN/run.sqlite, RUN/assembly.json if it is there, and the scans.  A scan that cannot be read is told in the report's
-/// warnings and shown without a picture.
+/// warnings and shown by the surface that the run keeps, or without a picture where there is none.
 /// \param listed  the best pairs that get all their figures
 /// \return what was read so far if it was cancelled
 /// \throws StoreError  no database, or not one of a run

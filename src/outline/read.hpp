@@ -35,7 +35,7 @@ struct PieceSet {
 /// \throws InputError its content is no outline; the message names the place
 PieceSet read_pieces(const std::string& path, const ExtractOptions& options = {});
 
-/// The pieces of all files of a folder that read_pieces() knows, in the order of their names; copies of one count once.
+/// The pieces of all files of a folder that read_pieces() knows, but for .json (other files end so), in the order of their names; copies of one count once.
 /// \throws IoError    no such folder
 /// \throws InputError no file in it is known, or none can be used
 PieceSet read_folder(const std::string& folder, const ExtractOptions& options = {});

@@ -74,7 +74,7 @@ struct Pair {
   std::string verdict;  ///< "join", "unsure" or "no join"; empty if it failed
   double seconds = 0;   ///< spent on it, all stages
   std::string error;    ///< one line, empty unless Failed
-  std::string result;   ///< JSON: evaluations, backend, warnings
+  std::string result;   ///< JSON: evaluations, backend, renderer, warnings; {} if it failed
 };
 
 /// A pose at which a pair may join.  Figures that were not measured are infinite.

@@ -42,7 +42,7 @@ class Run {
   /// All fragments, by name.
   std::vector<Fragment> fragments() const;
 
-  /// All pairs that are done, best score first, then by names.
+  /// All pairs that are done, best score first, then by evidence and names.
   std::vector<Pair> pairs() const;
   /// The same, one at a time: there may be more than memory holds.
   void each_pair(const std::function<void(const Pair&)>& visit) const;

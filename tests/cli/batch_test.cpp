@@ -216,6 +216,12 @@ TEST_F(Batch, ShardsMergedAreTheWhole) {
   ASSERT_EQ(run(merge).exit_code, 0);
   EXPECT_EQ(content(run_), reference_);
   EXPECT_EQ(read_file(run_ + "/pairs.csv"), table_);
+  int surfaces = 0;
+  for (const auto& kept : fs::directory_iterator(*home_ / "undisturbed/fragments")) {
+    EXPECT_EQ(read_file(run_ + "/fragments/" + kept.path().filename().string()), read_file(kept.path()));
+    ++surfaces;
+  }
+  EXPECT_EQ(surfaces, 3);
   EXPECT_EQ(run({"batch", scans(), "--out", folder_ / "1", "--shard", "2/3"}).exit_code, 1)
       << "holds shard 1/3";
 }

@@ -153,11 +153,15 @@ TEST(Version, IsTheProjectsVersionOnStdout) {
 TEST(GenerateDocs, WritesAManPageForEveryCommandAndACompletionThatBashReads) {
   const TemporaryFolder folder;
   ASSERT_EQ(run({"generate-docs", folder / "docs"}).exit_code, 0);
-  for (const char* command : {"match", "compare", "facets", "assemble", "shatter", "info", "bench"}) {
+  for (const char* command : {"match", "compare", "facets", "assemble", "shatter", "info", "bench", "outline",
+                              "outline-assemble"}) {
     const std::string page = read_file(folder / ("docs/rejoin-" + std::string(command) + ".1"));
     EXPECT_NE(page.find(".SH SYNOPSIS"), std::string::npos) << command;
   }
   EXPECT_NE(read_file(folder / "docs/rejoin-match.1").find("\\-\\-direction\\-a"), std::string::npos);
+  EXPECT_NE(read_file(folder / "docs/rejoin-outline.1").find("See \\fBrejoin\\-outline\\-match\\fR(1)"),
+            std::string::npos);
+  EXPECT_NE(read_file(folder / "docs/rejoin-outline-match.1").find("\\-\\-method"), std::string::npos);
   const std::string check = "bash -n " + (folder / "docs/rejoin.bash");
   EXPECT_EQ(std::system(check.c_str()), 0);
 }

@@ -36,7 +36,7 @@ Path faster_path(const std::shared_ptr<Engine>& engine, Backend backend, int res
                  const std::filesystem::path& file);
 
 /// How a scorer should draw whose user did not say: faster_path() with choices_file(), found out once a process.  Software
-/// always computes, without a measurement: that is known to be faster, and tests get the same bytes everywhere.
+/// always computes, without a measurement: that covers exactly the pixels that the rasteriser covers, everywhere.
 /// \return Path::Auto or Path::Pipeline
 Path preferred_path(const std::shared_ptr<Engine>& engine, Backend backend, int resolution);
 
