@@ -1,7 +1,7 @@
 # rejoin_module(NAME SOURCES ... [PUBLIC ...] [PRIVATE ...])
 #   A static library rejoin_NAME, alias rejoin::NAME, with the project's warnings and number rules.
-# rejoin_test(NAME SOURCES ... LIBS ... [LABELS ...] [SLOW ...])
-#   A GoogleTest program; each TEST becomes a CTest entry.  LABELS default to "fast"; the tests named by SLOW are "slow" all the same.
+# rejoin_test(NAME SOURCES ... LIBS ... [LABELS ...])
+#   A GoogleTest program; each TEST becomes a CTest entry.  LABELS default to "fast".
 
 add_library(rejoin_warnings INTERFACE)
 target_compile_options(rejoin_warnings INTERFACE -Wall -Wextra -Wpedantic -ffp-contract=off
@@ -16,20 +16,12 @@ function(rejoin_module name)
 endfunction()
 
 function(rejoin_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS;LABELS;SLOW" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS;LABELS" ${ARGN})
   if(NOT ARG_LABELS)
     set(ARG_LABELS fast)
   endif()
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} GTest::gtest GTest::gtest_main rejoin_warnings)
   target_compile_definitions(${name} PRIVATE REJOIN_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
-  if(NOT ARG_SLOW)
-    gtest_discover_tests(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 600 DISCOVERY_TIMEOUT 120)
-    return()
-  endif()
-  list(JOIN ARG_SLOW ":" slow)
-  gtest_discover_tests(${name} TEST_FILTER "-${slow}" TEST_LIST ${name}_fast
-                       PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 600 DISCOVERY_TIMEOUT 120)
-  gtest_discover_tests(${name} TEST_FILTER "${slow}" TEST_LIST ${name}_slow
-                       PROPERTIES LABELS slow TIMEOUT 600 DISCOVERY_TIMEOUT 120)
+  gtest_discover_tests(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 600 DISCOVERY_TIMEOUT 120)
 endfunction()

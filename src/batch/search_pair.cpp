@@ -1,9 +1,7 @@
 #include "batch/search_pair.hpp"
 
 #include <chrono>
-#include <cmath>
 #include <exception>
-#include <limits>
 #include <new>
 #include <nlohmann/json.hpp>
 
@@ -21,9 +19,7 @@ store::Candidate candidate_from(const match::Candidate& found) {
   candidate.depth = found.error.depth;
   candidate.slope = found.error.slope;
   candidate.raycast = found.error.raycast;
-  // Without depth maps there is none either.
-  candidate.overlap =
-      std::isfinite(found.error.depth) ? found.error.overlap : std::numeric_limits<double>::infinity();
+  candidate.overlap = found.error.overlap;
   candidate.contact_area = found.error.contact_area;
   candidate.gap_median = found.error.gap_median;
   candidate.penetration = found.error.penetration;

@@ -54,7 +54,8 @@ std::string long_options(const CLI::App& app) {
 /// Sets the words that may follow a command; of one with commands of its own, those of the command named next.
 std::string words_of(const CLI::App& command, const std::string& everywhere) {
   const std::vector<const CLI::App*> own = visible_subcommands(command);
-  std::string text = fmt::format("words=\"{}{}", long_options(command), everywhere);
+  std::string text = own.empty() ? "" : "place=2; ";
+  text += fmt::format("words=\"{}{}", long_options(command), everywhere);
   for (const CLI::App* sub : own) text += sub->get_name() + " ";
   text += "\"";
   if (own.empty()) return text;
@@ -78,12 +79,11 @@ std::string completion(const CLI::App& root) {
     cases += fmt::format("    {}) {} ;;\n", command->get_name(), words_of(*command, long_options(root)));
   }
   return "_rejoin() {\n"
-         "  local current=${COMP_WORDS[COMP_CWORD]} words\n"
+         "  local current=${COMP_WORDS[COMP_CWORD]} words place=1\n"
          "  case ${COMP_WORDS[1]} in\n" +
          cases + fmt::format("    *) words=\"{}{}\" ;;\n", commands, long_options(root)) +
          "  esac\n"
-         "  [[ $current == -* || $COMP_CWORD -eq 1 || ( ${COMP_WORDS[1]} == outline && $COMP_CWORD -eq 2 ) "
-         "]] && COMPREPLY=($(compgen -W \"$words\" -- "
+         "  [[ $current == -* || $COMP_CWORD -le $place ]] && COMPREPLY=($(compgen -W \"$words\" -- "
          "\"$current\"))\n"
          "}\n"
          "complete -o default -F _rejoin rejoin\n";

@@ -48,6 +48,10 @@ std::string measured(double value, int digits) {
   return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : std::string("not measured");
 }
 
+std::string percent(double share) {
+  return std::isfinite(share) ? fmt::format("{:.0f} %", 100.0 * share) : std::string("not measured");
+}
+
 std::string summary(const match::Result& result) {
   if (result.candidates.empty()) {
     return result.cancelled ? "interrupted before a pose was found\n" : "no join, no pose was found\n";
@@ -57,8 +61,8 @@ std::string summary(const match::Result& result) {
   return fmt::format("{}, score {:.3f}\n", name_of(result.verdict), best.score) + pose_text(best.pose) +
          fmt::format("contact: area {:.4g}, median gap {}, penetration {:.3g} (in the scans' unit)\n",
                      error.contact_area, measured(error.gap_median, 3), error.penetration) +
-         fmt::format("whole fragments: slope difference {}, ray-cast {}, overlap {:.0f} %\n",
-                     measured(error.slope, 4), measured(error.raycast, 4), 100.0 * error.overlap);
+         fmt::format("whole fragments: slope difference {}, ray-cast {}, overlap {}\n",
+                     measured(error.slope, 4), measured(error.raycast, 4), percent(error.overlap));
 }
 
 /// What to tell of sizes that no two pieces of one object have; empty: nothing.

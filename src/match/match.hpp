@@ -81,8 +81,8 @@ struct JointError {
   double slope = std::numeric_limits<double>::infinity();  ///< e_d * N
   double raycast =
       std::numeric_limits<double>::infinity();  ///< slope difference by ray casting the full surfaces
-  double overlap = 0;                           ///< A_S / min(A_S1, A_S2)
-  double contact_area = 0;                      ///< squared mesh units
+  double overlap = std::numeric_limits<double>::infinity();  ///< A_S / min(A_S1, A_S2)
+  double contact_area = 0;                                   ///< squared mesh units
   /// Median |gap| of B's broken surface where it lies over A's (median_gap()), mesh units; infinite without any.
   double gap_median = std::numeric_limits<double>::infinity();
   double penetration = 0;  ///< volume of B that lies clearly inside A, over the contact area, mesh units

@@ -87,7 +87,7 @@ struct Candidate {
   double depth = std::numeric_limits<double>::infinity();    ///< slope difference per pixel step
   double slope = std::numeric_limits<double>::infinity();    ///< the same as a slope
   double raycast = std::numeric_limits<double>::infinity();  ///< slope difference by ray casting
-  double overlap = 0;                                        ///< fraction of the smaller silhouette
+  double overlap = std::numeric_limits<double>::infinity();  ///< fraction of the smaller silhouette
   double contact_area = 0;                                   ///< squared mesh units
   double gap_median = 0;                                     ///< of |gap|, mesh units
   double penetration = 0;                                    ///< mesh units

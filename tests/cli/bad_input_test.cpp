@@ -99,7 +99,8 @@ TEST(RepairedFileTest, AWarningNamesTheFileOnce) {
   text.resize(text.find("3 0 2 1"));
   write_file(path, text + "3 0 1 2\n3 0 3 1\n3 1 3 2\n3 0 2 3\n");
   for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"facets", path}, {"shatter", path, "--out", folder / "pieces"}}) {
+       {std::vector<std::string>{"facets", path},
+        {"shatter", path, "--out", folder / "pieces", "--spacing", "5"}}) {
     const Finished finished = run(arguments);
     EXPECT_NE(finished.err.find("warning: " + path + ": was inside out, turned all faces\n"),
               std::string::npos)

@@ -4,39 +4,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <nlohmann/json.hpp>
-
 #include "mesh/load.hpp"
-#include "planted_files.hpp"
+#include "planted_match.hpp"
 
 namespace rejoin::cli::testing {
 namespace {
 
 using nlohmann::ordered_json;
-
-class MatchCommand : public ::testing::Test, protected PlantedFiles {
- protected:
-  /// What a run writes with --json.
-  ordered_json result_of(std::vector<std::string> arguments) {
-    arguments.insert(arguments.end(), {"--json", json});
-    const Finished finished = run(arguments);
-    EXPECT_EQ(finished.exit_code, 0) << finished.err;
-    return ordered_json::parse(read_file(json));
-  }
-
-  /// A vector as an option takes it.
-  static std::string text(const glm::dvec3& v) {
-    return std::to_string(v.x) + "," + std::to_string(v.y) + "," + std::to_string(v.z);
-  }
-
-  /// The arguments of a search that is quick because it knows the direction of the break.
-  std::vector<std::string> quick(const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments{
-        "match", a, b, "--direction-a", text(pair.direction_a), "--direction-b", text(pair.direction_b)};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
-  }
-};
+using MatchCommand = MatchOfPlanted;
 
 Rigid pose_of(const ordered_json& rows) {
   Rigid pose;
@@ -51,19 +26,6 @@ glm::dvec3 position(const ordered_json& xyz) {
   return {xyz[0], xyz[1], xyz[2]};
 }
 
-std::vector<std::string> keys(const ordered_json& object) {
-  std::vector<std::string> names;
-  for (const auto& [name, value] : object.items()) names.push_back(name);
-  return names;
-}
-
-/// The text without the values that may differ between two runs.
-std::string without_seconds(ordered_json result) {
-  result["search"].erase("seconds");
-  result["search"].erase("stages");
-  return result.dump();
-}
-
 // The evaluation of real scans calls 5 degrees and 2 % of the diameter (107 mm here) found.
 TEST_F(MatchCommand, FindsThePlantedPose) {
   const ordered_json result = result_of({"match", a, b});
@@ -72,92 +34,6 @@ TEST_F(MatchCommand, FindsThePlantedPose) {
   const glm::dvec3 centre = pair.b.origin + mesh::centroid(pair.b);
   EXPECT_LT(glm::distance(pose(centre), pair.truth(centre)), 0.02 * 107);
   EXPECT_NE(result["verdict"], "no join");
-}
-
-TEST_F(MatchCommand, WritesTheKeysOfTheSchema) {
-  const ordered_json result = result_of(quick({}));
-  EXPECT_EQ(result["schema"], "rejoin.match/1");
-  EXPECT_EQ(result["a"]["path"], a);
-  EXPECT_EQ(keys(result["b"]), (std::vector<std::string>{"path", "faces", "diameter"}));
-  EXPECT_EQ(keys(result["error"]), (std::vector<std::string>{"depth", "slope", "raycast", "overlap",
-                                                             "contact_area", "gap_median", "penetration"}));
-  EXPECT_EQ(result["pose"], result["candidates"][0]["pose"]);
-  EXPECT_EQ(result["pose"][3], ordered_json({0.0, 0.0, 0.0, 1.0}));
-  for (const char* key : {"evaluations", "seconds", "seed"})
-    EXPECT_TRUE(result["search"].contains(key)) << key;
-  EXPECT_EQ(keys(result["backend"]), (std::vector<std::string>{"name", "renderer"}));
-  EXPECT_TRUE(result.contains("version"));
-  double last = 1.0;
-  for (const ordered_json& candidate : result["candidates"]) {
-    EXPECT_LE(candidate["score"], last);
-    last = candidate["score"];
-  }
-}
-
-TEST_F(MatchCommand, WarnsOfScansInDifferentUnits) {
-  mesh::Mesh metres = pair.b;
-  metres.origin *= 1e-3;
-  for (glm::vec3& vertex : metres.vertices) vertex *= 1e-3F;
-  const std::string path = folder / "metres.ply";
-  mesh::save(path, metres);
-  const Finished finished = run({"match", a, path, "--json", json});
-  EXPECT_EQ(finished.exit_code, 0) << finished.err;
-  EXPECT_NE(finished.err.find("same unit?"), std::string::npos) << finished.err;
-  const ordered_json warnings = ordered_json::parse(read_file(json))["warnings"];
-  ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_NE(warnings[0].get<std::string>().find(path), std::string::npos) << warnings[0];
-  EXPECT_EQ(result_of(quick({}))["warnings"].size(), 0U);
-}
-
-TEST_F(MatchCommand, DashIsStdoutForJsonAloneAndNoFile) {
-  const Finished finished = run(quick({"--json", "-"}));
-  EXPECT_EQ(finished.exit_code, 0) << finished.err;
-  EXPECT_EQ(without_seconds(ordered_json::parse(finished.out)), without_seconds(result_of(quick({}))));
-  EXPECT_FALSE(std::filesystem::exists("-"));
-}
-
-TEST_F(MatchCommand, TellsTheTimeOfEveryStage) {
-  const ordered_json search = result_of(quick({}))["search"];
-  std::vector<std::string> names;
-  double sum = 0.0;
-  for (const ordered_json& stage : search["stages"]) {
-    names.push_back(stage["stage"]);
-    EXPECT_GE(stage["seconds"], 0.0) << names.back();
-    sum += stage["seconds"].get<double>();
-  }
-  EXPECT_EQ(names,
-            (std::vector<std::string>{"load a", "surface a", "coarse a", "facets a", "load b", "surface b",
-                                      "coarse b", "facets b", "prepare", "search", "align", "verify"}));
-  EXPECT_GT(sum, 0.0);
-  EXPECT_LE(sum, search["seconds"].get<double>());
-}
-
-TEST_F(MatchCommand, GivesTheSameBytesForAnyNumberOfThreadsAndAgain) {
-  const std::string one = without_seconds(result_of(quick({"--threads", "1", "--seed", "5"})));
-  EXPECT_EQ(one, without_seconds(result_of(quick({"--threads", "2", "--seed", "5"}))));
-  EXPECT_EQ(one, without_seconds(result_of(quick({"--threads", "1", "--seed", "5"}))));
-}
-
-TEST_F(MatchCommand, KeepsResultsOnStdoutAndNothingOnStderrInAPipe) {
-  const Finished finished = run(quick({}));
-  EXPECT_EQ(finished.exit_code, 0);
-  EXPECT_NE(finished.out.find("score"), std::string::npos);
-  EXPECT_EQ(finished.err, "");
-}
-
-TEST_F(MatchCommand, QuietSaysNothing) {
-  const Finished finished = run(quick({"--quiet"}));
-  EXPECT_EQ(finished.exit_code, 0);
-  EXPECT_EQ(finished.out, "");
-  EXPECT_EQ(finished.err, "");
-}
-
-TEST_F(MatchCommand, VerboseTellsStageTimesOnStderr) {
-  const Finished finished = run(quick({"--verbose"}));
-  for (const char* word : {"facets a", "load b", "search", "verify", "evaluations"}) {
-    EXPECT_NE(finished.err.find(word), std::string::npos) << word;
-  }
-  EXPECT_EQ(finished.out.find("evaluations"), std::string::npos);
 }
 
 TEST_F(MatchCommand, OutHoldsTheModelsAndThePictures) {
@@ -226,15 +102,6 @@ TEST_F(MatchCommand, PaintThatLiesOnNeitherScanIsRefusedByName) {
   const Finished without_colours = run({"match", a, b, "--facets", a});
   EXPECT_EQ(without_colours.exit_code, 1);
   EXPECT_NE(without_colours.err.find("colours"), std::string::npos) << without_colours.err;
-}
-
-// The planted cut is bumpy in both directions: it holds its pose, and half of it says the same as the other half.
-TEST_F(MatchCommand, StabilityOfTheTruePoseIsTold) {
-  const ordered_json stability = result_of({"match", a, b})["stability"];
-  EXPECT_GT(stability["margin"], 0.0);
-  EXPECT_LT(stability["repeat_deg"], 1.0);
-  EXPECT_LT(stability["repeat_shift"], 0.005 * 107);
-  EXPECT_LT(stability["slide"], 0.5);
 }
 
 TEST_F(MatchCommand, FacetThatIsNotThereIsWrongUse) {
