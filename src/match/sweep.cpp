@@ -12,12 +12,17 @@ namespace rejoin::match {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kAcross = 7.0;       // pixels across a strip, at least
-constexpr double kMapSide = 36.0;     // pixels across a strip drawn as a square, at least
-constexpr double kElongated = 3.0;    // length over mean width from which a facet is a strip
-constexpr double kStripTurn = 0.4;    // strips lie along each other within 23 degrees
-constexpr double kFinest = 0.7;       // of the scans' resolution: below it there is nothing to see
-constexpr double kPlate = 2.0;        // pixels of plates, which have more of them, against those of strips
+constexpr double kAcross = 7.0;      // pixels across a strip, at least
+constexpr double kMapSide = 36.0;    // pixels across a strip drawn as a square, at least
+constexpr double kElongated = 3.0;   // length over mean width from which a facet is a strip
+constexpr double kStripTurn = 0.4;   // strips lie along each other within 23 degrees
+constexpr double kFinest = 0.7;      // of the scans' resolution: below it there is nothing to see
+constexpr double kPlate = 2.0;       // pixels of plates, which have more of them, against those of strips
+constexpr double kCoarse = 1.6;      // pixels of a first look at plates against those of the second
+constexpr double kWorthALook = 1.3;  // pixels of a first look, at least: it saves nothing else
+constexpr double kTurnsKept = 0.15;  // share of a first look's turns that get a second
+constexpr std::size_t kLeastTurns = 3;
+constexpr double kSlack = 0.25;  // of a step of the second look, by which its turns may lie further apart
 constexpr double kSmallFacet = 0.02;  // of the largest facet's area: too small to tell
 
 double mean_width(const FacetPatch& patch) {
@@ -27,17 +32,20 @@ bool is_strip(const FacetPatch& patch) {
   return patch.length > kElongated * mean_width(patch);
 }
 
+bool are_strips(const FacetPatch& a, const FacetPatch& b) {
+  return is_strip(a) && is_strip(b);
+}
+
 /// Pixel size of the maps, mesh units.
-double pitch_for(const FacetPatch& a, const FacetPatch& b, double resolution) {
+double pitch_for(const FacetPatch& a, const FacetPatch& b) {
   const double across = std::min(mean_width(a), mean_width(b)) / kAcross;
   const double side = std::sqrt(std::min(a.area, b.area)) / kMapSide;
-  const double pitch = std::min(across, side) * (is_strip(a) && is_strip(b) ? 1.0 : kPlate);
-  return std::max(pitch, kFinest * resolution);
+  return std::min(across, side) * (are_strips(a, b) ? 1.0 : kPlate);
 }
 
 std::vector<double> turns_for(const FacetPatch& a, const FacetPatch& b, double step) {
   std::vector<double> turns;
-  if (is_strip(a) && is_strip(b)) {
+  if (are_strips(a, b)) {
     const int side = static_cast<int>(std::ceil(kStripTurn / step));
     for (const double base : {0.0, kPi}) {
       for (int k = -side; k <= side; ++k) turns.push_back(base + k * kStripTurn / side);
@@ -129,19 +137,69 @@ struct Task {
   const SweptFacet* b;
 };
 
-/// All shifts of b's patch on a's at the given turns.
-SweepResult correlate_turns(const Task& task, double pitch, const std::vector<double>& turns, int keep,
-                            const Context& context) {
-  const FacetPatch& a = task.a->patch;
-  const FacetPatch& b = task.b->patch;
-  const ReliefMap map_a = relief_of(a, pitch);
-  std::vector<ReliefMap> maps_b;
+double turn_step(const FacetPatch& a, const FacetPatch& b, double pitch, double step_px) {
+  return std::clamp(2.0 * step_px * pitch / std::min(a.length, b.length), 0.02, 0.25);
+}
+
+/// b's patch at every turn.
+std::vector<ReliefMap> turned_maps(const FacetPatch& b, double pitch, const std::vector<double>& turns,
+                                   const Context& context) {
+  std::vector<ReliefMap> maps;
   for (const double turn : turns) {
     if (context.cancelled()) return {};
-    maps_b.push_back(facing_relief_of(b, pitch, turn));
+    maps.push_back(facing_relief_of(b, pitch, turn));
   }
-  Correlator correlator(map_a, CorrelateOptions{});
+  return maps;
+}
+
+/// Of turns all around, those at which the patches agree best, each as `parts` of its step.
+/// \param evaluations  poses looked at are added
+std::vector<double> best_turns(const FacetPatch& a, const FacetPatch& b, double pitch,
+                               const std::vector<double>& turns, int parts, const Context& context,
+                               long& evaluations) {
+  const std::vector<ReliefMap> maps = turned_maps(b, pitch, turns, context);
+  Correlator correlator(relief_of(a, pitch), {.most_peaks = 1});
+  std::vector<std::pair<float, std::size_t>> ranked;
+  for (const std::size_t t : correlator.cheapest_order(maps)) {
+    if (context.cancelled()) break;
+    const std::vector<Agreement> peaks = correlator.peaks(maps[t]);
+    evaluations += correlator.shifts();
+    if (!peaks.empty()) ranked.emplace_back(-peaks.front().score, t);
+  }
+  std::sort(ranked.begin(), ranked.end());
+  const auto wanted = static_cast<std::size_t>(std::ceil(kTurnsKept * static_cast<double>(turns.size())));
+  ranked.resize(std::min(ranked.size(), std::max(kLeastTurns, wanted)));
+  const double part = 2.0 * kPi / static_cast<double>(turns.size()) / parts;
+  std::vector<double> finer;
+  for (const auto& [score, t] : ranked) {
+    for (int k = 0; k < parts; ++k) finer.push_back(turns[t] + part * (k - 0.5 * (parts - 1)));
+  }
+  std::sort(finer.begin(), finer.end());
+  return finer;
+}
+
+/// All shifts of b's patch on a's at all turns; of plates with pixels to spare, at the turns that a first look finds best.
+SweepResult correlate_patches(const Task& task, double resolution, const SweepOptions& options,
+                              const Context& context) {
+  const FacetPatch& a = task.a->patch;
+  const FacetPatch& b = task.b->patch;
+  const double wanted = pitch_for(a, b);
+  const double pitch = std::max(wanted, kFinest * resolution);
+  const double step = turn_step(a, b, pitch, options.turn_step_px);
   SweepResult result;
+  std::vector<double> turns;
+  if (are_strips(a, b) || kCoarse * wanted < kWorthALook * pitch) {
+    turns = turns_for(a, b, step);
+  } else {
+    const double coarse_pitch = kCoarse * wanted;
+    const double coarse_step = turn_step(a, b, coarse_pitch, options.turn_step_px);
+    const int parts = static_cast<int>(std::ceil(coarse_step / step - kSlack));
+    turns = best_turns(a, b, coarse_pitch, turns_for(a, b, coarse_step), parts, context, result.evaluations);
+  }
+
+  const ReliefMap map_a = relief_of(a, pitch);
+  const std::vector<ReliefMap> maps_b = turned_maps(b, pitch, turns, context);
+  Correlator correlator(map_a, CorrelateOptions{});
   for (const std::size_t t : correlator.cheapest_order(maps_b)) {
     if (context.cancelled()) break;
     for (const Agreement& peak : correlator.peaks(maps_b[t])) {
@@ -151,12 +209,8 @@ SweepResult correlate_turns(const Task& task, double pitch, const std::vector<do
     result.evaluations += correlator.shifts();
   }
   result.hits = distinct(std::move(result.hits), 3.0 * pitch, b.centre, 0.5 * std::min(a.length, b.length),
-                         static_cast<std::size_t>(keep));
+                         static_cast<std::size_t>(options.per_pair_of_facets));
   return result;
-}
-
-double turn_step(const FacetPatch& a, const FacetPatch& b, double pitch, double step_px) {
-  return std::clamp(2.0 * step_px * pitch / std::min(a.length, b.length), 0.02, 0.25);
 }
 
 /// The facets of one cut that may join.
@@ -209,12 +263,7 @@ SweepResult sweep(const Fragment& a, const Fragment& b, const SweepOptions& opti
   parallel_for(tasks.size(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
       if (context.cancelled()) return;
-      const FacetPatch& pa = tasks[k].a->patch;
-      const FacetPatch& pb = tasks[k].b->patch;
-      const double pitch = pitch_for(pa, pb, resolution);
-      const double step = turn_step(pa, pb, pitch, options.turn_step_px);
-      parts[k] =
-          correlate_turns(tasks[k], pitch, turns_for(pa, pb, step), options.per_pair_of_facets, context);
+      parts[k] = correlate_patches(tasks[k], resolution, options, context);
       const std::lock_guard lock(reporting);
       context.report("search", static_cast<double>(++done) / static_cast<double>(tasks.size()));
     }

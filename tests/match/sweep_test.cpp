@@ -1,0 +1,60 @@
+#include "match/sweep.hpp"
+
+#include <gtest/gtest.h>
+
+#include "prepared_pair.hpp"
+
+namespace rejoin::match {
+namespace {
+
+using testing::half_block;
+using testing::kDegree;
+using testing::kHalfZ;
+using testing::make_pair;
+
+/// Half of a block whose cut is so gentle that it is one facet: a plate.
+Fragment gentle_half(bool below) {
+  mesh::Mesh half = half_block(below, 64);
+  for (auto& v : half.vertices) {
+    if (std::abs(v.z) < static_cast<float>(kHalfZ)) v.z *= 0.25F;
+  }
+  return prepare(below ? "below" : "above", half, Context{});
+}
+
+double turn_between(const SweepHit& hit, const Rigid& truth) {
+  return angle_between(hit.pose, truth) / kDegree;
+}
+
+// A plate with pixels to spare gets a first look with larger ones, which must choose the turns next to the true one.
+TEST(Sweep, AGentleCutComesFirst) {
+  const Fragment a = gentle_half(true);
+  const Fragment b = gentle_half(false);
+  const SweepResult swept = sweep(a, b, {}, Context{});
+  ASSERT_FALSE(swept.hits.empty());
+  const SweepHit& best = swept.hits.front();
+  const Rigid truth = to_origins(a, b, Rigid{});
+  EXPECT_LT(turn_between(best, truth), 4.0);
+  const glm::dvec3 middle = mesh::centroid(b.surface);
+  EXPECT_LT(glm::distance(best.pose(middle), truth(middle)), 2.0 * best.pitch);
+}
+
+// This cut falls into narrow facets, which are looked at at all turns.
+TEST(Sweep, AWavyCutComesFirst) {
+  const auto pair = make_pair(1);
+  const SweepResult swept = sweep(pair.a, pair.b, {}, Context{});
+  ASSERT_FALSE(swept.hits.empty());
+  EXPECT_LT(turn_between(swept.hits.front(), pair.truth), 4.0);
+}
+
+TEST(Sweep, NoMorePosesThanAskedForBestFirst) {
+  const auto pair = make_pair(5);
+  SweepOptions options;
+  options.most = 7;
+  const SweepResult swept = sweep(pair.a, pair.b, options, Context{});
+  ASSERT_EQ(swept.hits.size(), 7U);
+  for (std::size_t k = 1; k < swept.hits.size(); ++k)
+    EXPECT_GE(swept.hits[k - 1].agreement.score, swept.hits[k].agreement.score);
+}
+
+}  // namespace
+}  // namespace rejoin::match
