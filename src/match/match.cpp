@@ -162,7 +162,7 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
   const auto rounds = passes(joint.tolerance(), options.max_candidates);
   align(hypotheses, joint, a, b, std::span(rounds).first(kGlance), context);
   result.promise = strongest(hypotheses);
-  if (options.promising_only && result.promise < kWorthwhile) {
+  if (options.promising_only && result.promise < (both_thin(a, b) ? kWorthwhileThin : kWorthwhile)) {
     clock.lap("align");
     give_up(a, b, hypotheses, context, result);
     return result;

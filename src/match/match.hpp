@@ -58,8 +58,14 @@ struct Fragment {
   double noise = 0;           ///< of the scan, mesh units (mesh/noise.hpp)
   std::optional<glm::dvec3>
       middle;  ///< view_centre() of `coarse`, where it is known: it takes time at every pair else
-  std::vector<StageTime> stages;  ///< surface (of a cloud), coarse, facets; load where a file was read
+  std::vector<int> sample_of_face;  ///< mesh::sample_of_faces() of `coarse`
+  std::vector<StageTime> stages;    ///< surface (of a cloud), coarse, facets; load where a file was read
 };
+
+/// Whether both are sherds: walls of a thickness that is theirs.
+inline bool both_thin(const Fragment& a, const Fragment& b) {
+  return a.facets.wall_thickness > 0 && b.facets.wall_thickness > 0;
+}
 
 /// The triangles that are matched: the scan's own, or laid through the points of a cloud.
 /// \param path  for messages

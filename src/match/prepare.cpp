@@ -38,6 +38,7 @@ Fragment prepare(std::string path, mesh::Mesh scan, const Context& context) {
   fragment.resolution = mesh::resolution(fragment.surface);
   fragment.noise = mesh::noise(fragment.surface);
   fragment.facets = mesh::segment(fragment.surface, fragment.diameter);
+  fragment.sample_of_face = mesh::sample_of_faces(fragment.facets, fragment.coarse);
   clock.lap("facets");
   context.report("prepare " + fragment.path, 1.0);
   return fragment;

@@ -12,12 +12,11 @@ namespace rejoin::match {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kAcross = 7.0;      // pixels across a strip, at least
-constexpr double kMapSide = 36.0;    // pixels across a strip drawn as a square, at least
+constexpr double kAcross = 5.0;      // pixels across a strip, at least
+constexpr double kSide = 18.0;       // pixels in the root of a facet's area, at least
 constexpr double kElongated = 3.0;   // length over mean width from which a facet is a strip
 constexpr double kStripTurn = 0.4;   // strips lie along each other within 23 degrees
 constexpr double kFinest = 0.7;      // of the scans' resolution: below it there is nothing to see
-constexpr double kPlate = 2.0;       // pixels of plates, which have more of them, against those of strips
 constexpr double kCoarse = 1.6;      // pixels of a first look at plates against those of the second,
 constexpr double kWorthALook = 1.3;  // and at least: looks with hardly larger pixels save nothing
 constexpr double kTurnsKept = 0.15;  // share of a first look's turns that get a second
@@ -38,9 +37,8 @@ bool are_strips(const FacetPatch& a, const FacetPatch& b) {
 
 /// Pixel size of the maps, mesh units.
 double pitch_for(const FacetPatch& a, const FacetPatch& b) {
-  const double across = std::min(mean_width(a), mean_width(b)) / kAcross;
-  const double side = std::sqrt(std::min(a.area, b.area)) / kMapSide;
-  return std::min(across, side) * (are_strips(a, b) ? 1.0 : kPlate);
+  const double pitch = std::sqrt(std::min(a.area, b.area)) / kSide;
+  return are_strips(a, b) ? std::min(pitch, std::min(mean_width(a), mean_width(b)) / kAcross) : pitch;
 }
 
 std::vector<double> turns_for(const FacetPatch& a, const FacetPatch& b, double step) {
@@ -215,15 +213,14 @@ SweepResult correlate_patches(const Task& task, double resolution, const SweepOp
 
 /// The facets of one cut that may join.
 /// \param first  number of the cut's first facet
-/// \param sample_of_face  of the fragment's coarse mesh
 std::vector<SweptFacet> candidates(const Fragment& fragment, const mesh::Cut& cut, int first,
-                                   const std::vector<int>& sample_of_face, const std::vector<int>& chosen) {
+                                   const std::vector<int>& chosen) {
   if (cut.facets.empty()) return {};
   double largest = 0.0;
   for (const auto& facet : cut.facets) {
     if (facet.fracture) largest = std::max(largest, facet.area);
   }
-  const auto facet_of_face = mesh::facet_of_faces(cut, sample_of_face);
+  const auto facet_of_face = mesh::facet_of_faces(cut, fragment.sample_of_face);
   std::vector<SweptFacet> list;
   for (int f = 0; f < static_cast<int>(cut.facets.size()); ++f) {
     const auto& facet = cut.facets[static_cast<std::size_t>(f)];
@@ -245,14 +242,10 @@ void add_tasks(const std::vector<SweptFacet>& a, const std::vector<SweptFacet>& 
 }  // namespace
 
 SweepResult sweep(const Fragment& a, const Fragment& b, const SweepOptions& options, const Context& context) {
-  const auto samples_a = mesh::sample_of_faces(a.facets, a.coarse);
-  const auto samples_b = mesh::sample_of_faces(b.facets, b.coarse);
-  const auto seen_a = candidates(a, a.facets, 0, samples_a, options.facets_a);
-  const auto seen_b = candidates(b, b.facets, 0, samples_b, options.facets_b);
-  const auto creased_a =
-      candidates(a, a.facets.creased, facet_numbers(a).creased, samples_a, options.facets_a);
-  const auto creased_b =
-      candidates(b, b.facets.creased, facet_numbers(b).creased, samples_b, options.facets_b);
+  const auto seen_a = candidates(a, a.facets, 0, options.facets_a);
+  const auto seen_b = candidates(b, b.facets, 0, options.facets_b);
+  const auto creased_a = candidates(a, a.facets.creased, facet_numbers(a).creased, options.facets_a);
+  const auto creased_b = candidates(b, b.facets.creased, facet_numbers(b).creased, options.facets_b);
   std::vector<Task> tasks;
   add_tasks(seen_a, seen_b, tasks);
   add_tasks(creased_a, creased_b, tasks);
@@ -274,7 +267,8 @@ SweepResult sweep(const Fragment& a, const Fragment& b, const SweepOptions& opti
     result.evaluations += part.evaluations;
   }
   result.hits = distinct(std::move(result.hits), 3.0 * resolution, mesh::centroid(b.surface),
-                         0.25 * std::min(a.diameter, b.diameter), static_cast<std::size_t>(options.most));
+                         0.25 * std::min(a.diameter, b.diameter),
+                         static_cast<std::size_t>(both_thin(a, b) ? options.most_thin : options.most));
   return result;
 }
 

@@ -13,6 +13,7 @@ constexpr double kPossible = 0.3;  ///< and from which it is "unsure"
 
 /// Strength of the best pose after the first alignments from which a pair is promising.  \source docs/scoring.md
 constexpr double kWorthwhile = 1.0;
+constexpr double kWorthwhileThin = 1.5;  ///< the same where both pieces are thin
 
 /// Strength -> log-odds that the pieces join.
 double log_odds(double strength);

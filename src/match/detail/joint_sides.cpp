@@ -62,7 +62,7 @@ JointLengths lengths_of(const Fragment& a, const Fragment& b) {
   const double tb = b.facets.wall_thickness;
   const double scan = std::max(a.resolution, b.resolution);
   JointLengths l;
-  l.thickness = ta > 0 && tb > 0 ? std::min(ta, tb) : 0.0;
+  l.thickness = both_thin(a, b) ? std::min(ta, tb) : 0.0;
   l.spacing = std::max(a.facets.samples.spacing, b.facets.samples.spacing);
   l.tolerance = std::max({l.thickness > 0 ? 0.05 * l.thickness : 0.15 * l.spacing, 0.3 * scan,
                           kNoiseInGaps * std::hypot(a.noise, b.noise)});
