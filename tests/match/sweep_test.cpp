@@ -21,6 +21,13 @@ Fragment gentle_half(bool below) {
   return prepare(below ? "below" : "above", half, Context{});
 }
 
+/// Half of a wall 7 mm thick, cut across: a sherd.
+Fragment thin_half(bool below) {
+  mesh::Mesh half = half_block(below, 64);
+  for (auto& v : half.vertices) v.y *= 0.12F;
+  return prepare(below ? "below" : "above", half, Context{});
+}
+
 double turn_between(const SweepHit& hit, const Rigid& truth) {
   return angle_between(hit.pose, truth) / kDegree;
 }
@@ -54,6 +61,22 @@ TEST(Sweep, NoMorePosesThanAskedForBestFirst) {
   ASSERT_EQ(swept.hits.size(), 7U);
   for (std::size_t k = 1; k < swept.hits.size(); ++k)
     EXPECT_GE(swept.hits[k - 1].agreement.score, swept.hits[k].agreement.score);
+}
+
+TEST(Sweep, SherdsHaveALimitOfTheirOwn) {
+  const Fragment a = thin_half(true);
+  const Fragment b = thin_half(false);
+  ASSERT_TRUE(both_thin(a, b));
+  SweepOptions options;
+  options.most = 3;
+  options.most_thin = 7;
+  EXPECT_EQ(sweep(a, b, options, Context{}).hits.size(), 7U);
+}
+
+TEST(Prepare, KnowsTheSampleOfEveryFaceThatTheSweepDraws) {
+  const Fragment a = thin_half(true);
+  EXPECT_EQ(a.sample_of_face, mesh::sample_of_faces(a.facets, a.coarse));
+  EXPECT_EQ(a.sample_of_face.size(), a.coarse.faces.size());
 }
 
 }  // namespace
