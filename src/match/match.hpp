@@ -58,11 +58,12 @@ struct Fragment {
   double noise = 0;           ///< of the scan, mesh units (mesh/noise.hpp)
   std::optional<glm::dvec3>
       middle;  ///< view_centre() of `coarse`, where it is known: it takes time at every pair else
-  std::vector<int> sample_of_face;  ///< mesh::sample_of_faces() of `coarse`
-  std::vector<StageTime> stages;    ///< surface (of a cloud), coarse, facets; load where a file was read
+  std::vector<int>
+      sample_of_face;  ///< mesh::sample_of_faces() of `coarse`; samples stay when facets are painted
+  std::vector<StageTime> stages;  ///< surface (of a cloud), coarse, facets; load where a file was read
 };
 
-/// Whether both are sherds: walls of a thickness that is theirs.
+/// Whether both are sherds, thin pieces with a wall thickness of their own.
 inline bool both_thin(const Fragment& a, const Fragment& b) {
   return a.facets.wall_thickness > 0 && b.facets.wall_thickness > 0;
 }
