@@ -11,6 +11,7 @@
 #include "mesh/detail/facet_table.hpp"
 #include "mesh/detail/grow.hpp"
 #include "mesh/detail/local_fit.hpp"
+#include "mesh/detail/open_walls.hpp"
 #include "mesh/neighbours.hpp"
 #include "mesh/point_index.hpp"
 #include "mesh/thickness.hpp"
@@ -31,6 +32,11 @@ constexpr double kStripOfSize =
     0.125;  // of the piece: the break of a thicker wall is as wide as a solid's side
 constexpr double kSamplesPerWall = 7.0;  // across a sherd's fracture strip
 constexpr double kMostSamples = 60000.0;
+constexpr double kOpen =
+    0.05;  // share of the rays inwards that meet nothing, of an open scan; closed ones have 0.003
+constexpr double kWideOfSize = 0.25;  // of the piece: breaks of an open scan are narrower
+constexpr double kMostOfOpen = 0.2;   // of the piece: its breaks measure less across
+constexpr double kWideWalls = 2.5;    // wall thicknesses: breaks are narrower
 
 using Lists = std::vector<std::vector<std::uint32_t>>;
 
@@ -106,14 +112,29 @@ std::vector<float> roughness_of(const Samples& samples, const std::vector<glm::v
   return rough;
 }
 
-/// Wall points see the opposite wall; then every point takes the vote of its surroundings, twice.
-void classify_thin(Segmentation& s, const InwardRays& rays, const Lists& near) {
+/// Share of the rays that meet nothing.
+double meets_nothing(const InwardRays& rays) {
+  const auto lost = std::ranges::count_if(rays.length, [](float length) { return std::isinf(length); });
+  return static_cast<double>(lost) / static_cast<double>(std::max<std::size_t>(1, rays.length.size()));
+}
+
+/// What tells walls from breaks on a thin piece.
+struct WallSigns {
+  InwardRays rays;
+  std::vector<bool> wide;  ///< of an open scan, per sample: on a facet too wide for a break; else empty
+};
+
+/// Wall points see the opposite wall, or lie on a wide facet of an open scan; then every point takes the vote of its
+/// surroundings, twice.
+void classify_thin(Segmentation& s, const WallSigns& signs, const Lists& near) {
   const auto t = static_cast<float>(s.wall_thickness);
-  for (std::size_t i = 0; i < s.samples.size(); ++i) {
-    const bool wall =
-        rays.square[i] > kWallSquare && rays.length[i] > kWallLow * t && rays.length[i] < kWallHigh * t;
-    s.surface[i] = wall ? Surface::Original : Surface::Fracture;
-  }
+  const auto is_wall = [&](std::size_t i) {
+    const float length = signs.rays.length[i];
+    if (signs.rays.square[i] > kWallSquare && length > kWallLow * t && length < kWallHigh * t) return true;
+    return !signs.wide.empty() && signs.wide[i];
+  };
+  for (std::size_t i = 0; i < s.samples.size(); ++i)
+    s.surface[i] = is_wall(i) ? Surface::Original : Surface::Fracture;
   for (int round = 0; round < 2; ++round) {
     std::vector<Surface> voted = s.surface;
     for (std::size_t i = 0; i < s.samples.size(); ++i) {
@@ -201,24 +222,35 @@ Segmentation segment(const Mesh& mesh) {
 
 Segmentation segment(const Mesh& mesh, double size) {
   Segmentation s;
-  s.samples = sample_surface(mesh, kSamples);
-  Lists near = neighbours_within(s.samples, kSmoothRadius * s.samples.spacing);
-  s.normals = smooth_normals(s.samples.normals, near);
-  InwardRays rays = cast_inwards(mesh, s.samples, s.normals);
-  s.wall_thickness = wall_thickness(rays, size);
+  Lists near;
+  const auto look = [&](std::size_t samples) {
+    s.samples = sample_surface(mesh, samples);
+    near = neighbours_within(s.samples, kSmoothRadius * s.samples.spacing);
+    s.normals = smooth_normals(s.samples.normals, near);
+    s.surface.assign(s.samples.size(), Surface::Fracture);
+    return cast_inwards(mesh, s.samples, s.normals);
+  };
+  const auto open_walls = [&](double wide) {
+    const detail::Ground all{s.samples.points, s.normals, s.surface, near, s.samples.spacing};
+    return detail::open_walls(mesh, all, detail::smallest_facet(s), wide);
+  };
+  WallSigns signs{look(kSamples), {}};
+  s.wall_thickness = wall_thickness(signs.rays, size);
+  const bool open = meets_nothing(signs.rays) > kOpen;
+  if (open && s.wall_thickness == 0) {
+    const double width = open_walls(kWideOfSize * size).break_width;
+    if (width < kMostOfOpen * size) s.wall_thickness = width;
+  }
   const bool thin = s.wall_thickness > 0;
   if (thin && s.samples.spacing > s.wall_thickness / kSamplesPerWall) {
     const double finer = s.samples.spacing * kSamplesPerWall / s.wall_thickness;
     const double count = static_cast<double>(s.samples.size()) * finer * finer;
-    s.samples = sample_surface(mesh, static_cast<std::size_t>(std::min(count, kMostSamples)));
-    near = neighbours_within(s.samples, kSmoothRadius * s.samples.spacing);
-    s.normals = smooth_normals(s.samples.normals, near);
-    rays = cast_inwards(mesh, s.samples, s.normals);
+    signs.rays = look(static_cast<std::size_t>(std::min(count, kMostSamples)));
   }
   s.sample_area = surface_area(mesh) / static_cast<double>(std::max<std::size_t>(1, s.samples.size()));
   s.roughness = roughness_of(s.samples, s.normals);
-  s.surface.assign(s.samples.size(), Surface::Fracture);
-  if (thin) classify_thin(s, rays, near);
+  if (thin && open) signs.wide = open_walls(kWideWalls * s.wall_thickness).wall;
+  if (thin) classify_thin(s, signs, near);
 
   const std::vector<glm::vec3> normals = thin ? strip_normals(s) : s.normals;
   const detail::Ground ground{s.samples.points, normals, s.surface, near, s.samples.spacing};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "mesh/detail/weld.hpp"
 #include "mesh/painted_facets.hpp"
 #include "mesh/thickness.hpp"
 
@@ -247,6 +248,65 @@ TEST(Facets, ShellsFractureSurfaceIsItsFourNarrowSides) {
   EXPECT_EQ(fracture, 4);
   EXPECT_NEAR(area, truth,
               0.25 * truth);  // a row of samples at either edge of a 5 mm strip may go either way
+}
+
+/// The mesh without the faces whose middle is chosen, its sides welded together.
+template <class Chosen>
+Mesh without(Mesh mesh, Chosen chosen) {
+  detail::weld(mesh);
+  std::erase_if(mesh.faces, [&](const glm::uvec3& f) {
+    return chosen((mesh.vertices[f.x] + mesh.vertices[f.y] + mesh.vertices[f.z]) / 3.0F);
+  });
+  return mesh;
+}
+
+float around_axis(const glm::vec3& p) {
+  return std::hypot(p.x, p.y);
+}
+
+/// Share of the samples of shell() whose class is right, those within a sample spacing of an edge left out.
+double rightly_classed(const Segmentation& s) {
+  std::size_t right = 0;
+  std::size_t asked = 0;
+  const auto margin = static_cast<float>(s.samples.spacing);
+  for (std::size_t i = 0; i < s.samples.size(); ++i) {
+    const glm::vec3 p = s.samples.points[i];
+    const float r = around_axis(p);
+    const float to_break = std::min({p.x, p.y, p.z, 60.0F - p.z});
+    const float to_wall = std::min(50.0F - r, r - 45.0F);
+    const bool broken = to_break < 0.01F;
+    if ((broken ? to_wall : to_break) < margin) continue;
+    ++asked;
+    right += (s.surface[i] == Surface::Fracture) == broken ? 1 : 0;
+  }
+  return static_cast<double>(right) / static_cast<double>(asked);
+}
+
+TEST(Facets, SherdScannedFromOutsideHasItsBreaksAndTheirWidthForAWall) {
+  const auto s = segment(without(shell(90, 60), [](const glm::vec3& p) { return around_axis(p) < 45.05F; }));
+  EXPECT_NEAR(s.wall_thickness, 5.0, 0.75);  // a row of samples at either edge of a strip may go either way
+  EXPECT_GT(rightly_classed(s), 0.98);
+}
+
+TEST(Facets, SherdScannedFromInsideHasItsBreaksToo) {
+  // The middles of the outer wall's faces lie up to 0.01 inside the cylinder.
+  const auto s = segment(without(shell(90, 60), [](const glm::vec3& p) { return around_axis(p) > 49.95F; }));
+  EXPECT_NEAR(s.wall_thickness, 5.0, 0.75);
+  EXPECT_GT(rightly_classed(s), 0.98);
+}
+
+TEST(Facets, WallWhoseOtherSideIsMissingInPartsIsNoBreak) {
+  const auto s = segment(
+      without(shell(90, 60), [](const glm::vec3& p) { return around_axis(p) < 45.05F && p.z > 25.0F; }));
+  EXPECT_NEAR(s.wall_thickness, 5.0, 0.15);
+  EXPECT_GT(rightly_classed(s), 0.98);
+}
+
+TEST(Facets, SolidPieceWithoutItsBottomIsNoSherd) {
+  // A slab, whose sides are narrow and end with the scan, is one; a lump is not.
+  const auto bottom = [](const glm::vec3& p) { return p.z < 0.01F; };
+  EXPECT_EQ(segment(without(box({40, 30, 20}, 20, flat), bottom)).wall_thickness, 0.0);
+  EXPECT_NEAR(segment(without(box({40, 30, 4}, 20, flat), bottom)).wall_thickness, 4.0, 0.6);
 }
 
 TEST(Facets, NothingDependsOnTheUnit) {
