@@ -10,9 +10,8 @@
 namespace rejoin::cli {
 namespace {
 
-/// A true join's score is hardly ever below the first, a false one's above the second.
+/// A true join's score is hardly ever below.
 constexpr double kUnsure = 0.3;
-constexpr double kJoin = 0.7;
 
 const Choices<OutlineMethod> kMethods{{"auto", OutlineMethod::Automatic},
                                       {"multiscale", OutlineMethod::Multiscale},
@@ -99,7 +98,7 @@ ExitCode finished_with(const outline::PieceSet& set, Console& console) {
 }
 
 const char* outline_verdict(double score) {
-  return score >= kJoin ? "join" : score >= kUnsure ? "unsure" : "no join";
+  return score >= outline::kSureScore ? "join" : score >= kUnsure ? "unsure" : "no join";
 }
 
 }  // namespace rejoin::cli

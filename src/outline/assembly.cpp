@@ -130,7 +130,9 @@ class Assembler {
       if (layout_.group(c.a) != layout_.group(c.b)) across.push_back(c);
     double information = 0.0;
     for (const PlacedContact& c : across) information += c.contact.information;
-    if (information < options_.least_information || !holds(across, 1.0)) return false;
+    // Settled contacts of short joins say little at the scale of the whole; what the search for pairs is sure of needs no more.
+    const bool enough = information >= options_.least_information || links_[bundle.links[0]].sure;
+    if (!enough || across.empty() || !holds(across, 1.0)) return false;
     layout_ = std::move(trial);
     return true;
   }

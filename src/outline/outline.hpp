@@ -104,6 +104,9 @@ struct JoinCandidate {
   Boundary boundary;   ///< where the two meet; see join_areas() for what lies between and over each other
 };
 
+/// A false join's score is hardly ever this high.
+inline constexpr double kSureScore = 0.7;
+
 /// What a matcher says of one pair.
 struct PairResult {
   std::vector<JoinCandidate> candidates;  ///< best first, distinct poses; empty: nothing fits

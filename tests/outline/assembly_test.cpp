@@ -86,6 +86,20 @@ TEST(Assembly, RefusesAJoinThatMakesPiecesOverlap) {
   EXPECT_LT(misplaced(board, assembly, 0, 2), 0.5);
 }
 
+TEST(Assembly, JoinsWhatThePairsSearchIsSureOfHoweverLittleTheContactSays) {
+  const planted::Board board = planted::broken_board(2, 1, 0.05, 43);
+  std::vector<PairResult> pairs(1);
+  JoinCandidate candidate;
+  candidate.pose = inverse(board.poses[0]) * board.poses[1];
+  AssemblyOptions options;
+  options.least_information = 1e9;
+  for (const auto& [score, unplaced] : {std::pair(0.6, 2U), std::pair(0.8, 0U)}) {
+    candidate.score = score;
+    pairs[0].candidates = {candidate};
+    EXPECT_EQ(assemble(board.pieces, pairs, options, Context()).unplaced.size(), unplaced) << score;
+  }
+}
+
 TEST(Assembly, ASecondScanOfAPieceIsNotLaidOnTheFirst) {
   planted::Board board = planted::broken_board(3, 3, 0.05, 12);
   const std::vector<AssemblyJoin> once = assembled(board.pieces).joins;
