@@ -180,6 +180,18 @@ TEST(Extract, BrokenFilesAreNamed) {
   expect_refusal(folder.file("disc.png"), "cannot be decoded");
 }
 
+TEST(Extract, PicturesThatAreCutShortAreRefused) {
+  const Folder folder;
+  for (const std::string name : {"disc.jpg", "disc.tif"}) {
+    cv::imwrite(folder.file(name), painted(disc({128, 120}), {0.5, 0.6, 0.7}, {0, 0, 0}, 255, CV_8UC3));
+    const auto size = std::filesystem::file_size(folder.file(name));
+    for (const auto kept : {size - 2, size * 4 / 5, size / 2, std::uintmax_t{12}}) {
+      std::filesystem::resize_file(folder.file(name), kept);
+      expect_refusal(folder.file(name), "cut short");
+    }
+  }
+}
+
 TEST(Extract, HugeClaimIsRefusedBeforeDecoding) {
   const Folder folder;
   cv::imwrite(folder.file("disc.png"), with_alpha(disc({128, 120})));

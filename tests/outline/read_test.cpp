@@ -138,6 +138,13 @@ TEST_F(Read, CsvWhoseCommasPartColumnsMayHaveBlanksAroundThem) {
   EXPECT_DOUBLE_EQ(only_area(read_pieces(write("d.csv", "0,0;\n4,0;\n4,2;\n0,2;\n"))), 8.0);
 }
 
+TEST_F(Read, CsvWithAByteOrderMarkLosesNoPoint) {
+  EXPECT_DOUBLE_EQ(only_area(read_pieces(write("a.csv",
+                                               "\xEF\xBB\xBF"
+                                               "0,0\n4,0\n4,2\n0,2\n2,1\n"))),
+                   6.0);
+}
+
 TEST_F(Read, CsvLosesNoFirstLineThatIsNoPoint) {
   expect_refusal("a.csv", "0,one\n4,0\n4,2\n0,2\n", "line 1 is no point");
 }

@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::string_view kSeparators = ",; \t\r";
 constexpr std::string_view kBlanks = " \t";
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // spreadsheets begin files with it
 
 /// The next number of a line, taken off it; nullopt: what comes is none.
 std::optional<double> take_number(std::string_view& line) {
@@ -81,7 +82,9 @@ std::optional<glm::dvec2> parse_point(std::string_view line) {
 
 }  // namespace
 
-std::vector<Rings> read_csv(const std::string& path, const std::string& text) {
+std::vector<Rings> read_csv(const std::string& path, const std::string& file) {
+  std::string_view text = file;
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   bool blanks_part = false;
   for (std::string_view rest = text; !rest.empty() && !blanks_part;)
     blanks_part = is_pair_with_decimal_commas(take_line(rest));

@@ -50,6 +50,13 @@ std::optional<ImageHeader> jpeg_header(std::string_view bytes) {
   return std::nullopt;
 }
 
+/// Whether a JPEG ends with the marker of its end.  libjpeg paints grey what is missing, which looks like a piece.
+bool jpeg_is_whole(std::string_view bytes) {
+  const std::size_t pixels =
+      bytes.find("\xFF\xDA");  // pictures within the picture come before, with ends of their own
+  return pixels != std::string_view::npos && bytes.find("\xFF\xD9", pixels) != std::string_view::npos;
+}
+
 /// Width and height are tags 256 and 257 of the first directory, as 16 or 32 bits.
 std::optional<ImageHeader> tiff_header(std::string_view bytes) {
   const bool big = bytes[0] == 'M';
@@ -85,14 +92,24 @@ cv::Mat unify(const cv::Mat& image, const std::string& path) {
   return result;
 }
 
+bool is_jpeg(std::string_view bytes) {
+  return bytes.starts_with("\xFF\xD8");
+}
+
+bool is_tiff(std::string_view bytes) {
+  return bytes.starts_with(std::string_view("II*\0", 4)) || bytes.starts_with(std::string_view("MM\0*", 4));
+}
+
+bool starts_like_a_picture(std::string_view bytes) {
+  return bytes.starts_with(kPngStart) || is_jpeg(bytes) || is_tiff(bytes);
+}
+
 }  // namespace
 
 std::optional<ImageHeader> image_header(std::string_view bytes) {
-  if (bytes.substr(0, kPngStart.size()) == kPngStart) return png_header(bytes);
-  if (bytes.substr(0, 2) == "\xFF\xD8") return jpeg_header(bytes);
-  if (bytes.substr(0, 4) == std::string_view("II*\0", 4) ||
-      bytes.substr(0, 4) == std::string_view("MM\0*", 4))
-    return tiff_header(bytes);
+  if (bytes.starts_with(kPngStart)) return png_header(bytes);
+  if (is_jpeg(bytes)) return jpeg_header(bytes);
+  if (is_tiff(bytes)) return tiff_header(bytes);
   return std::nullopt;
 }
 
@@ -100,6 +117,8 @@ cv::Mat load_image(const std::string& path, std::size_t max_pixels) {
   const std::string bytes = read_file(path);
   if (bytes.empty()) throw InputError(path, "is empty", "save the picture again");
   const std::optional<ImageHeader> header = image_header(bytes);
+  if (!header && starts_like_a_picture(bytes))
+    throw InputError(path, "is cut short or damaged", "save the picture again");
   if (!header) throw InputError(path, "is no PNG, JPEG or TIFF picture", "convert it to PNG");
   const std::size_t width = std::max<std::size_t>(header->width, 1);
   if (header->height > max_pixels / width) {
@@ -108,6 +127,8 @@ cv::Mat load_image(const std::string& path, std::size_t max_pixels) {
                                  header->width, header->height, max_pixels / 1000000),
                      "scale the picture down or cut it into parts");
   }
+  if (is_jpeg(bytes) && !jpeg_is_whole(bytes))
+    throw InputError(path, "is cut short: its end is missing", "save the picture again");
   cv::Mat image;
   try {
     const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
