@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "batch/inputs.hpp"
+#include "cli/arguments.hpp"
 #include "cli/assemble_constraints.hpp"
 #include "cli/assemble_files.hpp"
 #include "cli/assemble_input.hpp"
@@ -58,7 +59,7 @@ class AssembleCommand final : public Command {
     app.option_defaults()->group("Assembly");
     app.add_option("--sure", options_.sure, "score of a join that needs no witness, 0.5 to 1 (0.99)")
         ->type_name("P")
-        ->check(CLI::Range(0.5, 1.0).description(""));
+        ->check(in_range(0.5, 1.0));
   }
 
   ExitCode run(Console& console, Context& context) override {

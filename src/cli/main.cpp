@@ -5,7 +5,9 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <exception>
+#include <iostream>
 #include <new>
 #include <string>
 #include <vector>
@@ -156,13 +158,21 @@ int run_program(int argc, char** argv) {
   }
 }
 
+/// Results that nobody can have read must not look like success: a full disk shows when the last bytes are written.
+int with_results_written(int code) {
+  std::cout.flush();
+  if (code != kDone || (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()))
+    return code;
+  return fail("standard output: cannot be written; the results are not whole", kFailure);
+}
+
 }  // namespace
 }  // namespace rejoin::cli
 
 int main(int argc, char** argv) {
   using namespace rejoin::cli;
   try {
-    return run_program(argc, argv);
+    return with_results_written(run_program(argc, argv));
   } catch (const rejoin::Error& error) {
     return fail(error.what(), kFailure);
   } catch (const std::bad_alloc&) {

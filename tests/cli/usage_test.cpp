@@ -1,7 +1,10 @@
 /// Wrong use, help and version.
 #include <gtest/gtest.h>
 
+#include <sys/wait.h>
+
 #include <algorithm>
+#include <cstdlib>
 #include <sstream>
 
 #include "core/version.hpp"
@@ -19,6 +22,16 @@ struct WrongUse {
 /// What GoogleTest and CTest show for the case.
 void PrintTo(const WrongUse& value, std::ostream* out) {
   *out << value.name;
+}
+
+TEST(CommandLine, ResultsThatADiskHadNoRoomForAreNoSuccess) {
+  const TemporaryFolder folder;
+  const std::string errors = folder / "errors";
+  for (const std::string arguments : {"info", "--version", "match --help"}) {
+    const int status = std::system((REJOIN_PROGRAM " " + arguments + " > /dev/full 2> " + errors).c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 1) << arguments;
+    EXPECT_NE(read_file(errors).find("standard output: cannot be written"), std::string::npos) << arguments;
+  }
 }
 
 class WrongUseTest : public ::testing::TestWithParam<WrongUse> {};
