@@ -227,8 +227,16 @@ class Assembler {
       if ((link.a == piece || link.b == piece) && (best == nullptr || link.score > best->score)) best = &link;
     }
     if (best == nullptr) return "no pose was found for it with any other fragment";
-    return fmt::format("no join is sure: the best is with {{{}}}, score {:.3f}",
-                       best->a == piece ? best->b : best->a, best->score);
+    const char* said = must_not_join(best->a, best->b)
+                           ? "its best join is one that must not be: with {{{}}}, score {:.3f}"
+                           : "no join is sure: the best is with {{{}}}, score {:.3f}";
+    return fmt::format(fmt::runtime(said), best->a == piece ? best->b : best->a, best->score);
+  }
+
+  bool must_not_join(std::size_t a, std::size_t b) const {
+    return std::ranges::any_of(options_.constraints.must_not_join, [&](const auto& pair) {
+      return std::minmax(pair.first, pair.second) == std::minmax(a, b);
+    });
   }
 
   void tell_broken_wishes(Result& result) const {

@@ -41,23 +41,28 @@ class AssemblyReader {
   AssemblyReader(std::filesystem::path path, report::RunReport& report, const Numbers& numbers)
       : path_(std::move(path)), report_(report), numbers_(numbers) {}
 
-  void read() {
+  /// Reasons why fragments are left out hold only if no pair was compared since.
+  /// \return pairs that were compared since it was made
+  std::size_t read() {
     try {
-      read_fields();
+      return read_fields();
     } catch (const ordered_json::exception& error) {  // a value of another type than the schema has
       refuse(path_, std::string("is no assembly (") + error.what() + ")");
     }
   }
 
  private:
-  void read_fields() {
+  std::size_t read_fields() {
     const ordered_json json = ordered_json::parse(read_file(path_), nullptr, false);
     if (!json.is_object() || json.value("schema", "") != "rejoin.assembly/1")
       refuse(path_, "is no assembly (schema rejoin.assembly/1)");
     if (!json.contains("fragments") || !json["fragments"].is_object()) refuse(path_, "has no \"fragments\"");
+    const std::size_t missing = json.value("pairs_missing", report_.missing_pairs);
+    later_ = missing - std::min(missing, report_.missing_pairs);
     for (const auto& [name, value] : json["fragments"].items()) place(name, value);
     const ordered_json joins = json.value("joins", ordered_json::array());
     for (const ordered_json& join : joins) use(join);
+    return later_;
   }
 
   std::size_t number_of(const ordered_json& name) const {
@@ -69,7 +74,7 @@ class AssemblyReader {
   void place(const std::string& name, const ordered_json& value) {
     report::ReportFragment& fragment = report_.fragments[number_of(name)];
     if (!value.is_object()) refuse(path_, "fragment \"" + name + "\" is no object");
-    fragment.reason = value.value("reason", fragment.reason);
+    if (later_ == 0) fragment.reason = value.value("reason", fragment.reason);
     const int group = value.value("group", -1);
     if (group < 0 || !value.contains("pose") || value["pose"].is_null()) return;
     fragment.pose = rigid_from_json(value["pose"]);
@@ -107,6 +112,7 @@ class AssemblyReader {
   std::filesystem::path path_;
   report::RunReport& report_;
   const Numbers& numbers_;
+  std::size_t later_ = 0;  ///< pairs compared since
 };
 
 /// The scan's surface, or the one that the run keeps of it; none of what is no scan or a copy.
@@ -226,7 +232,8 @@ void add_pairs(report::RunReport& report, const store::Run& run, const Numbers& 
 }
 
 /// What can be said of a fragment that the assembly leaves out without a word.
-void add_reasons(report::RunReport& report, bool assembled, const store::Remains& remains) {
+/// \param all  what holds for every such fragment; empty: its pairs tell
+void add_reasons(report::RunReport& report, const std::string& all, const store::Remains& remains) {
   std::vector<const report::ReportPair*> best(report.fragments.size(), nullptr);
   for (const report::ReportPair& pair : report.pairs) {
     if (pair.comparison == report::Comparison::Failed) continue;
@@ -237,8 +244,8 @@ void add_reasons(report::RunReport& report, bool assembled, const store::Remains
   for (std::size_t k = 0; k < report.fragments.size(); ++k) {
     report::ReportFragment& fragment = report.fragments[k];
     if (fragment.pose || !fragment.reason.empty()) continue;
-    if (!assembled) {
-      fragment.reason = "not assembled yet (rejoin assemble)";
+    if (!all.empty()) {
+      fragment.reason = all;
     } else if (best[k] == nullptr) {
       fragment.reason = "compared with no other fragment";
     } else {
@@ -290,13 +297,21 @@ report::RunReport read_run(const std::filesystem::path& run, std::size_t listed,
   }
   add_pairs(report, database, numbers, listed);
   const std::filesystem::path assembly = folder / kAssemblyName;
-  const bool assembled = std::filesystem::exists(assembly);
-  if (assembled) AssemblyReader(assembly, report, numbers).read();
   const store::Remains remains = store::remains(database);
   report.missing_pairs = remains.missing;
+  std::string not_placed = "not assembled yet (rejoin assemble)";
+  if (std::filesystem::exists(assembly)) {
+    const std::size_t later = AssemblyReader(assembly, report, numbers).read();
+    not_placed = later > 0 ? "the assembly is older than some of its pairs (rejoin assemble)" : "";
+    if (later > 0) {
+      report.warnings.push_back(fmt::format(
+          "the assembly is older than {} of the pairs; make it again with rejoin assemble", later));
+      console.warning(report.warnings.back());
+    }
+  }
   const std::string missing = store::told(remains);
   if (!missing.empty()) report.warnings.push_back(missing);
-  add_reasons(report, assembled, remains);
+  add_reasons(report, not_placed, remains);
   add_parameters(report, database, folder);
   read_scans(report, fragments, folder, console, context);
   return report;

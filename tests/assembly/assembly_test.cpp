@@ -363,6 +363,15 @@ TEST(Constraints, PairsThatMustNotJoinStayApart) {
   EXPECT_FALSE(together);
 }
 
+TEST(Constraints, APieceLeftOutByThemSaysSo) {
+  const Corner corner = corner_of(ball());
+  Options options;
+  options.constraints.must_not_join = {{corner.b, corner.a}};
+  const Result result = run(ball(), {ball().true_link(corner.a, corner.b, 0.99)}, options);
+  EXPECT_NE(result.placements[corner.a].reason.find("must not be"), std::string::npos)
+      << result.placements[corner.a].reason;
+}
+
 TEST(Constraints, TwoUnsureJoinsThatMakeAForbiddenPairTouchAreBothLeftOut) {
   const Corner corner = corner_of(ball());
   const std::vector<Link> two{ball().true_link(corner.a, corner.b, 0.1),

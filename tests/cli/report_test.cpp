@@ -119,6 +119,25 @@ TEST(Report, WithoutAnAssemblySaysSo) {
   EXPECT_NE(data["fragments"][0]["reason"].get<std::string>().find("rejoin assemble"), std::string::npos);
 }
 
+TEST(Report, TellsThatTheAssemblyIsOlderThanThePairsAndTakesBackItsReasons) {
+  const PlantedRun run;
+  const json left_out = {
+      {"pose", nullptr}, {"group", -1}, {"reason", "3 of its 3 pairs are not compared yet"}};
+  json assembly = {
+      {"schema", "rejoin.assembly/1"}, {"fragments", {{"a.ply", left_out}}}, {"pairs_missing", 3}};
+  run.assemble(assembly.dump());
+  const Finished stale = testing::run({"report", run.folder, "--pictures", "0"});
+  ASSERT_EQ(stale.exit_code, 0) << stale.err;
+  EXPECT_NE(stale.err.find("the assembly is older than 1 of the pairs"), std::string::npos) << stale.err;
+  const std::string reason = data_of(read_file(run.page))["fragments"][0]["reason"];
+  EXPECT_EQ(reason.find("the assembly is older than some of its pairs"), 0U) << reason;
+  assembly["pairs_missing"] = 2;  // as now
+  run.assemble(assembly.dump());
+  const Finished fresh = testing::run({"report", run.folder, "--pictures", "0"});
+  EXPECT_EQ(fresh.err.find("older"), std::string::npos) << fresh.err;
+  EXPECT_EQ(data_of(read_file(run.page))["fragments"][0]["reason"], left_out["reason"]);
+}
+
 TEST(Report, RefusesAnAssemblyThatIsNoneOfThisRun) {
   const PlantedRun run;
   for (const char* text :

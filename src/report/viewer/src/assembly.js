@@ -196,7 +196,7 @@ export class Assembly {
 
   #card(index) {
     const fragment = this.data.fragments[index];
-    const joins = this.data.pairs.filter((pair) => (pair.a === index || pair.b === index) && (pair.used || pair.verdict !== 'no join'));
+    const joins = this.data.pairs.filter((pair) => !pair.failed && (pair.a === index || pair.b === index) && (pair.used || pair.verdict !== 'no join'));
     const other = (pair) => this.data.fragments[pair.a === index ? pair.b : pair.a];
     const facts = [
       ['object', fragment.pose ? fragment.group + 1 : 'not placed'],
