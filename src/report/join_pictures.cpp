@@ -50,12 +50,14 @@ std::vector<ReportPicture> join_pictures(const Joint& joint, const JoinPictureOp
   const JointViews views = choose_views(joint, scene);
   const Eye best{views.best, up_for(joint, views.best)};
   std::vector<ReportPicture> pictures;
-  const auto add = [&](const char* title, const Image& image) {
+  const auto add = [&](const std::string& title, const Image& image) {
     pictures.push_back(picture(title, image, options.quality));
   };
   add("Joined", shaded_panel(scene, joined, best, panel));
   add("Apart, A left", apart_panel(joint, views, panel));
-  add("Broken faces by gap", book_panel(joint, open_book(joint, panel.width, panel.height)));
+  add("Broken faces by gap: red overlaps, blue gapes by " + short_number(joint.scale) +
+          " or more, grey has no contact",
+      book_panel(joint, open_book(joint, panel.width, panel.height)));
   add("Cut through the joint", draw_section(joint, panel.width, panel.height));
   add_maps(pictures, joint, options);
   return pictures;

@@ -158,7 +158,7 @@ void draw_header(Image& sheet, const SheetLabels& labels) {
   draw_text(sheet, kMargin + chip + 22, 52, number, score);
   const double left = kMargin + chip + 22 + text_width(number, score) + 40;
   const TextStyle name{18, kInk};
-  const double room = (kWidth - kMargin - left - 2 * 44 - 30) / 2;
+  const double room = (kWidth - kMargin - left - 2 * 28 - 40 - text_width("A  B  ", name)) / 2;
   const std::string a = fitted(labels.name_a, name, room);
   fill(sheet, {static_cast<int>(left), 34, 18, 18}, kTintA);
   draw_text(sheet, left + 28, 52, "A  " + a, name);
