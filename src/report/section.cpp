@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <opencv2/imgproc.hpp>
 #include <unordered_map>
@@ -123,6 +124,51 @@ void draw_lines(Image& image, const Window& window, const std::vector<std::vecto
   }
 }
 
+using Line = std::vector<glm::dvec2>;
+
+/// Takes the line whose nearer end is within `widest` of a place off the list, turned so that this end is its first point.
+Line take_near(std::vector<Line>& lines, const glm::dvec2& place, double widest) {
+  const auto distance = [&](const Line& line) {
+    return std::min(glm::distance(line.front(), place), glm::distance(line.back(), place));
+  };
+  const auto nearest = std::ranges::min_element(lines, {}, distance);
+  if (nearest == lines.end() || distance(*nearest) > widest) return {};
+  Line line = std::move(*nearest);
+  lines.erase(nearest);
+  if (glm::distance(line.back(), place) < glm::distance(line.front(), place)) std::ranges::reverse(line);
+  return line;
+}
+
+/// Joins open lines over slits of the surface, which are narrower than this share of the whole cut: kept and simplified surfaces
+/// have some.
+void close_slits(std::vector<Line>& lines) {
+  constexpr double kSlit = 0.01;
+  glm::dvec2 low(std::numeric_limits<double>::infinity());
+  glm::dvec2 high = -low;
+  for (const Line& line : lines) {
+    for (const glm::dvec2& p : line) {
+      low = glm::min(low, p);
+      high = glm::max(high, p);
+    }
+  }
+  const double widest = kSlit * glm::distance(low, high);
+  const auto first_open = std::stable_partition(lines.begin(), lines.end(),
+                                                [](const Line& line) { return line.front() == line.back(); });
+  std::vector<Line> open(std::make_move_iterator(first_open), std::make_move_iterator(lines.end()));
+  lines.erase(first_open, lines.end());
+  while (!open.empty()) {
+    Line line = std::move(open.back());
+    open.pop_back();
+    for (int end = 0; end < 2; ++end) {
+      for (Line next; !(next = take_near(open, line.back(), widest)).empty();)
+        line.insert(line.end(), next.begin(), next.end());
+      std::ranges::reverse(line);
+    }
+    if (line.size() > 2 && glm::distance(line.front(), line.back()) <= widest) line.push_back(line.front());
+    lines.push_back(std::move(line));
+  }
+}
+
 /// The place of the contact nearest to its middle: the middle of a bent seam lies off the surface.
 glm::dvec3 contact_point(const Joint& joint) {
   glm::dvec3 best = joint.centre;
@@ -153,6 +199,7 @@ std::vector<std::vector<glm::dvec2>> section(const mesh::Mesh& mesh, const Rigid
       }
     }
   }
+  close_slits(lines);
   return lines;
 }
 

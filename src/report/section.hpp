@@ -15,9 +15,8 @@ struct Plane {
   glm::dvec3 up{0, 1, 0};
 };
 
-/// Where the surface of a placed mesh meets a plane, as lines in the plane's axes.  A closed mesh gives
-/// closed lines
-/// (first point = last point); an open one may give open lines.
+/// Where the surface of a placed mesh meets a plane, as lines in the plane's axes.  A closed mesh gives closed lines
+/// (first point = last point), and so does one with slits narrower than 1 % of the cut; an open one may give open lines.
 /// \param pose  file coordinates -> the plane's frame
 std::vector<std::vector<glm::dvec2>> section(const mesh::Mesh& mesh, const Rigid& pose, const Plane& plane);
 

@@ -110,6 +110,25 @@ TEST(Section, OfAnOpenMeshIsAnOpenLine) {
   EXPECT_NEAR(std::abs(lines[0].front().x - lines[0].back().x), 2, 1e-6);
 }
 
+TEST(Section, SlitsOfASurfaceAreClosedAndHolesAreNot) {
+  const mesh::Mesh sphere = ball(1, 400);  // a face is 0.013 wide where it is cut, the cut 1.6
+  const auto lines_without = [&](auto left_out) {
+    mesh::Mesh rest = sphere;
+    std::erase_if(rest.faces, [&](const glm::uvec3& f) {
+      return left_out((rest.vertices[f.x] + rest.vertices[f.y] + rest.vertices[f.z]) / 3.0F);
+    });
+    EXPECT_LT(rest.faces.size(), sphere.faces.size());
+    return section(rest, Rigid{}, {{0, 0, 0.6}, {1, 0, 0}, {0, 1, 0}});
+  };
+  const auto slit = lines_without(
+      [](const glm::vec3& p) { return std::abs(p.z - 0.6F) < 0.02F && p.y > 0 && std::abs(p.x) < 0.004F; });
+  ASSERT_EQ(slit.size(), 1U);
+  EXPECT_EQ(slit[0].front(), slit[0].back());
+  const auto hole = lines_without([](const glm::vec3& p) { return p.x > 0.7F; });
+  ASSERT_EQ(hole.size(), 1U);
+  EXPECT_NE(hole[0].front(), hole[0].back());
+}
+
 // The bar and its number stand on paper: of a block cut lengthwise the drawing fills the panel from side to side.
 TEST(Section, LeavesRoomForTheScaleBar) {
   const Planted pair = planted_pair(24);
