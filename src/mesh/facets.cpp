@@ -118,20 +118,16 @@ double meets_nothing(const InwardRays& rays) {
   return static_cast<double>(lost) / static_cast<double>(std::max<std::size_t>(1, rays.length.size()));
 }
 
-/// What tells walls from breaks on a thin piece.
-struct WallSigns {
-  InwardRays rays;
-  std::vector<bool> wide;  ///< of an open scan, per sample: on a facet too wide for a break; else empty
-};
-
 /// Wall points see the opposite wall, or lie on a wide facet of an open scan; then every point takes the vote of its
 /// surroundings, twice.
-void classify_thin(Segmentation& s, const WallSigns& signs, const Lists& near) {
+/// \param wide  of an open scan, per sample: on a facet too wide for a break; else empty
+void classify_thin(Segmentation& s, const InwardRays& rays, const std::vector<bool>& wide,
+                   const Lists& near) {
   const auto t = static_cast<float>(s.wall_thickness);
   const auto is_wall = [&](std::size_t i) {
-    const float length = signs.rays.length[i];
-    if (signs.rays.square[i] > kWallSquare && length > kWallLow * t && length < kWallHigh * t) return true;
-    return !signs.wide.empty() && signs.wide[i];
+    const float length = rays.length[i];
+    if (rays.square[i] > kWallSquare && length > kWallLow * t && length < kWallHigh * t) return true;
+    return !wide.empty() && wide[i];
   };
   for (std::size_t i = 0; i < s.samples.size(); ++i)
     s.surface[i] = is_wall(i) ? Surface::Original : Surface::Fracture;
@@ -187,6 +183,49 @@ void measure(Facet& facet, const Segmentation& s) {
   facet.width = high.y - low.y;
 }
 
+/// Neighbours of the samples and what lies inwards of them.
+struct Look {
+  Lists near;
+  InwardRays rays;
+};
+
+/// Samples the surface; all of it counts as fracture at first.
+Look look(const Mesh& mesh, std::size_t samples, Segmentation& s) {
+  s.samples = sample_surface(mesh, samples);
+  Lists near = neighbours_within(s.samples, kSmoothRadius * s.samples.spacing);
+  s.normals = smooth_normals(s.samples.normals, near);
+  s.surface.assign(s.samples.size(), Surface::Fracture);
+  InwardRays rays = cast_inwards(mesh, s.samples, s.normals);
+  return {std::move(near), std::move(rays)};
+}
+
+detail::OpenWalls open_walls(const Mesh& mesh, const Segmentation& s, const Lists& near, double wide) {
+  const detail::Ground all{s.samples.points, s.normals, s.surface, near, s.samples.spacing};
+  return detail::open_walls(mesh, all, detail::smallest_facet(s), wide);
+}
+
+/// Sets the samples, their normals and classes, and the wall thickness.
+/// \return the samples' neighbours
+Lists classify(const Mesh& mesh, double size, Segmentation& s) {
+  Look seen = look(mesh, kSamples, s);
+  s.wall_thickness = wall_thickness(seen.rays, size);
+  const bool open = meets_nothing(seen.rays) > kOpen;
+  if (open && s.wall_thickness == 0) {
+    const double width = open_walls(mesh, s, seen.near, kWideOfSize * size).break_width;
+    if (width < kMostOfOpen * size) s.wall_thickness = width;
+  }
+  if (s.wall_thickness == 0) return std::move(seen.near);
+  if (s.samples.spacing > s.wall_thickness / kSamplesPerWall) {
+    const double finer = s.samples.spacing * kSamplesPerWall / s.wall_thickness;
+    const double count = static_cast<double>(s.samples.size()) * finer * finer;
+    seen = look(mesh, static_cast<std::size_t>(std::min(count, kMostSamples)), s);
+  }
+  std::vector<bool> wide;
+  if (open) wide = open_walls(mesh, s, seen.near, kWideWalls * s.wall_thickness).wall;
+  classify_thin(s, seen.rays, wide, seen.near);
+  return std::move(seen.near);
+}
+
 }  // namespace
 
 namespace detail {
@@ -222,36 +261,10 @@ Segmentation segment(const Mesh& mesh) {
 
 Segmentation segment(const Mesh& mesh, double size) {
   Segmentation s;
-  Lists near;
-  const auto look = [&](std::size_t samples) {
-    s.samples = sample_surface(mesh, samples);
-    near = neighbours_within(s.samples, kSmoothRadius * s.samples.spacing);
-    s.normals = smooth_normals(s.samples.normals, near);
-    s.surface.assign(s.samples.size(), Surface::Fracture);
-    return cast_inwards(mesh, s.samples, s.normals);
-  };
-  const auto open_walls = [&](double wide) {
-    const detail::Ground all{s.samples.points, s.normals, s.surface, near, s.samples.spacing};
-    return detail::open_walls(mesh, all, detail::smallest_facet(s), wide);
-  };
-  WallSigns signs{look(kSamples), {}};
-  s.wall_thickness = wall_thickness(signs.rays, size);
-  const bool open = meets_nothing(signs.rays) > kOpen;
-  if (open && s.wall_thickness == 0) {
-    const double width = open_walls(kWideOfSize * size).break_width;
-    if (width < kMostOfOpen * size) s.wall_thickness = width;
-  }
+  const Lists near = classify(mesh, size, s);
   const bool thin = s.wall_thickness > 0;
-  if (thin && s.samples.spacing > s.wall_thickness / kSamplesPerWall) {
-    const double finer = s.samples.spacing * kSamplesPerWall / s.wall_thickness;
-    const double count = static_cast<double>(s.samples.size()) * finer * finer;
-    signs.rays = look(static_cast<std::size_t>(std::min(count, kMostSamples)));
-  }
   s.sample_area = surface_area(mesh) / static_cast<double>(std::max<std::size_t>(1, s.samples.size()));
   s.roughness = roughness_of(s.samples, s.normals);
-  if (thin && open) signs.wide = open_walls(kWideWalls * s.wall_thickness).wall;
-  if (thin) classify_thin(s, signs, near);
-
   const std::vector<glm::vec3> normals = thin ? strip_normals(s) : s.normals;
   const detail::Ground ground{s.samples.points, normals, s.surface, near, s.samples.spacing};
   const bool strips = thin && s.wall_thickness < kStripOfSize * size;
