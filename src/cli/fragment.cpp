@@ -2,6 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <map>
+
 #include "cli/interrupt.hpp"
 #include "core/error.hpp"
 #include "core/words.hpp"
@@ -50,6 +53,7 @@ match::Fragment load_fragment(const std::string& path, Console& console, const C
 
 void use_painted_facets(const std::vector<std::string>& files, const std::vector<match::Fragment*>& fragments,
                         Console& console) {
+  std::map<const match::Fragment*, std::string> painted_by;
   for (const std::string& file : files) {
     const mesh::Mesh painted = load_scan(file, console, mesh::Weld::PlacesAndColours);
     if (painted.is_cloud() || painted.colours.empty()) {
@@ -60,6 +64,13 @@ void use_painted_facets(const std::vector<std::string>& files, const std::vector
     for (match::Fragment* fragment : fragments) {
       auto facets = mesh::painted_facets(fragment->facets, fragment->surface.origin, painted);
       if (!facets) continue;
+      const auto [earlier, first] = painted_by.emplace(fragment, file);
+      if (!first) {
+        throw InputError(file, "lies on the same scan as " + earlier->second, "give one painted file a scan");
+      }
+      if (std::ranges::none_of(facets->segmentation.facets, &mesh::Facet::fracture)) {
+        throw InputError(file, "has no break painted", "give every break a colour; grey is original surface");
+      }
       if (facets->left_out > 0) {
         console.warning(fmt::format("{}: {} on too little of the surface to be a facet, left out", file,
                                     counted(facets->left_out, "colour")));

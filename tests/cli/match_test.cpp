@@ -89,6 +89,20 @@ TEST_F(MatchCommand, PaintedFacetsAreTheOnesThatMayJoin) {
   EXPECT_LT(glm::degrees(angle_between(pose_of(result["pose"]), pair.truth)), 5.0);
 }
 
+TEST_F(MatchCommand, PaintWithoutABreakAndTwoPaintsOfOneScanAreRefused) {
+  const std::string paint = folder / "paint.ply";
+  ASSERT_EQ(run({"facets", b, "--ply", paint}).exit_code, 0);
+  const Finished twice = run({"match", a, b, "--facets", paint, "--facets", paint});
+  EXPECT_EQ(twice.exit_code, 1);
+  EXPECT_NE(twice.err.find("lies on the same scan as"), std::string::npos) << twice.err;
+  mesh::Mesh grey = mesh::load(paint, mesh::Weld::PlacesAndColours).mesh;
+  grey.colours.assign(grey.vertices.size(), glm::u8vec3(190));
+  mesh::save(paint, grey);
+  const Finished finished = run({"match", a, b, "--facets", paint});
+  EXPECT_EQ(finished.exit_code, 1);
+  EXPECT_NE(finished.err.find("paint.ply: has no break painted"), std::string::npos) << finished.err;
+}
+
 TEST_F(MatchCommand, PaintThatLiesOnNeitherScanIsRefusedByName) {
   const std::string paint = folder / "paint.ply";
   mesh::Mesh moved = pair.b;
