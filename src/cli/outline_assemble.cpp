@@ -10,6 +10,7 @@
 #include "cli/outline_command.hpp"
 #include "cli/outline_json.hpp"
 #include "core/files.hpp"
+#include "core/words.hpp"
 #include "outline/assembly.hpp"
 #include "outline/assembly_pictures.hpp"
 #include "report/similarity_picture.hpp"
@@ -31,10 +32,12 @@ std::string summary(const std::vector<outline::Piece>& pieces, const outline::As
   }
   const auto proposed = std::count_if(assembly.joins.begin(), assembly.joins.end(),
                                       [](const outline::AssemblyJoin& join) { return join.proposed; });
-  std::string text = fmt::format(
-      "{} of {} pieces placed; {} joins, {} of them found pair by pair, borders {:.3g} apart (rms)\n",
-      pieces.size() - assembly.unplaced.size() - assembly.untried.size(), pieces.size(),
-      assembly.joins.size(), proposed, assembly.rms);
+  std::string text = fmt::format("{} of {} pieces placed; {}",
+                                 pieces.size() - assembly.unplaced.size() - assembly.untried.size(),
+                                 pieces.size(), counted(assembly.joins.size(), "join"));
+  if (!assembly.joins.empty())
+    text += fmt::format(", {} found pair by pair, borders {:.3g} apart (rms)", proposed, assembly.rms);
+  text += "\n";
   for (std::size_t group = 0; group < sizes.size() && sizes[group] > 1; ++group)
     text += fmt::format("  object {}: {} pieces\n", group + 1, sizes[group]);
   for (const std::size_t piece : assembly.unplaced)
