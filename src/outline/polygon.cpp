@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/words.hpp"
 #include "outline/outline.hpp"
 
 namespace rejoin::outline {
@@ -178,7 +179,7 @@ Polygon mend_polygon(Polygon polygon, const std::string& subject, std::vector<st
   }
   if (loops > 0)
     notes.push_back(
-        fmt::format("{}: the outline crosses itself; {} small loops were cut off", subject, loops));
+        fmt::format("{}: the outline crosses itself; {} cut off", subject, counted(loops, "small loop")));
   if (polygon.size() < kLeastPoints) {
     throw InputError(subject,
                      fmt::format("an outline of {} points says nothing of where it broke", polygon.size()),
