@@ -25,6 +25,7 @@ constexpr double kAround = 0.78;  // share of the end of the scan that lies at b
 constexpr double kSheet = 0.52;   // flatness of a sherd
 constexpr double kSharp =
     0.11;  // share of the creases beside its walls that have walls on both sides, of a sherd
+constexpr int kMostParts = 1000;  // of an edge
 constexpr double kEnded =
     0.25;  // share of a break's samples that are nearer to the end of the scan than to a crease
 
@@ -62,7 +63,9 @@ std::vector<glm::vec3> ends_of_scan(const Mesh& mesh, double step) {
   std::vector<glm::vec3> points;
   for (const Edge& e : open) {
     if (length_of[borders.of(e.first)] < kHole * longest) continue;
-    const int parts = static_cast<int>(std::ceil(length(e) / step));
+    // Samples of a mesh of needles lie much closer than its edges are long.
+    const int parts =
+        length(e) < kMostParts * step ? static_cast<int>(std::ceil(length(e) / step)) : kMostParts;
     for (int i = 0; i < parts; ++i) {
       points.push_back(glm::mix(mesh.vertices[e.first], mesh.vertices[e.second],
                                 static_cast<float>(i) / static_cast<float>(parts)));
