@@ -26,7 +26,6 @@ constexpr float kWallLow = 0.5F;        // of the wall thickness
 constexpr float kWallHigh = 1.8F;
 constexpr float kWallSquare = 0.8F;   // the opposite wall may lean by 37 degrees
 constexpr double kStripRadius = 0.7;  // of the wall thickness
-constexpr float kCone = 35.0F;        // degrees between a facet's mean normal and its others
 constexpr float kStripCone = 28.0F;   // the same: a strip ends where the break turns a corner
 constexpr double kStripOfSize =
     0.125;  // of the piece: the break of a thicker wall is as wide as a solid's side
@@ -270,7 +269,7 @@ Segmentation segment(const Mesh& mesh, double size) {
   const bool strips = thin && s.wall_thickness < kStripOfSize * size;
   const std::size_t smallest = detail::smallest_facet(s);
   static_cast<Cut&>(s) =
-      detail::cut_into(s, detail::grow_facets(ground, strips ? kStripCone : kCone, smallest));
+      detail::cut_into(s, detail::grow_facets(ground, strips ? kStripCone : detail::kCone, smallest));
   if (!thin) s.creased = detail::cut_into(s, detail::facets_between_creases(ground, smallest));
   return s;
 }

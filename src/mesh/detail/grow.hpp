@@ -10,6 +10,9 @@
 
 namespace rejoin::mesh::detail {
 
+/// Degrees between a facet's mean normal and its others.
+inline constexpr float kCone = 35.0F;
+
 /// The samples that facets grow over.
 struct Ground {
   const std::vector<glm::vec3>& points;

@@ -14,7 +14,6 @@
 namespace rejoin::mesh::detail {
 namespace {
 
-constexpr float kCone = 35.0F;    // degrees between a facet's mean normal and its others
 constexpr double kInner = 0.9;    // share of a facet's samples that lie nearer to its edge than its middle
 constexpr float kBehind = -0.5F;  // cosine of normals from which one sample lies behind the other
 constexpr float kBent = 0.94F;    // cosine of normals beside each other across a crease, at most
