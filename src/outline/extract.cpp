@@ -22,6 +22,11 @@ constexpr double kBorderBand = 0.25;
 constexpr double kMostOnBorder = 12.0;
 /// Colours are taken this far inside, so that the background does not bleed in, pixels.
 constexpr double kColourDepth = 3.0;
+// A border is an edge where the coverage rises by so much from as many pixels outside to as many inside; a piece has hardly
+// anything else.
+constexpr double kEdgeReach = 3.0;
+constexpr float kLeastEdge = 0.25F;
+constexpr double kMostBlurred = 0.1;
 /// The border's direction at a point is that from this many points before to as many after.
 constexpr std::size_t kDirectionReach = 4;
 
@@ -58,18 +63,42 @@ glm::dvec3 colour_at(const cv::Mat& image, const glm::dvec2& point) {
   return sum;
 }
 
-std::vector<glm::dvec3> border_colours(const Polygon& polygon, const cv::Mat& image) {
-  std::vector<glm::dvec3> colours;
-  colours.reserve(polygon.size());
+/// The direction into the piece at each point of its border; zero where the border turns back on itself.
+Polygon inward_directions(const Polygon& polygon) {
+  Polygon directions;
+  directions.reserve(polygon.size());
   const std::size_t count = polygon.size();
   for (std::size_t i = 0; i < count; ++i) {
     const glm::dvec2 chord =
         polygon[(i + kDirectionReach) % count] - polygon[(i + count - kDirectionReach) % count];
     const double length = glm::length(chord);
-    const glm::dvec2 inward = length > 0.0 ? glm::dvec2(-chord.y, chord.x) / length : glm::dvec2(0.0);
-    colours.push_back(colour_at(image, polygon[i] + kColourDepth * inward));
+    directions.push_back(length > 0.0 ? glm::dvec2(-chord.y, chord.x) / length : glm::dvec2(0.0));
   }
+  return directions;
+}
+
+std::vector<glm::dvec3> border_colours(const Polygon& polygon, const cv::Mat& image) {
+  const Polygon inward = inward_directions(polygon);
+  std::vector<glm::dvec3> colours;
+  colours.reserve(polygon.size());
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    colours.push_back(colour_at(image, polygon[i] + kColourDepth * inward[i]));
   return colours;
+}
+
+/// Whether much of the border is no edge but a slow change, as of light.
+bool is_blurred(const Polygon& polygon, const cv::Mat& field) {
+  const Polygon inward = inward_directions(polygon);
+  const auto at = [&](const glm::dvec2& p) {
+    const cv::Point pixel(static_cast<int>(std::lround(p.x)), static_cast<int>(std::lround(p.y)));
+    return cv::Rect({0, 0}, field.size()).contains(pixel) ? field.at<float>(pixel) : 0.0F;
+  };
+  std::size_t slow = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec2 step = kEdgeReach * inward[i];
+    if (at(polygon[i] + step) - at(polygon[i] - step) < kLeastEdge) ++slow;
+  }
+  return static_cast<double>(slow) > kMostBlurred * static_cast<double>(polygon.size());
 }
 
 /// Pieces and holes by the sign of their area, largest first; equal ones by place.
@@ -127,13 +156,19 @@ void judge_cut_pieces(std::vector<Polygon>& outer, const cv::Mat& image, std::ve
 
 Extraction extract(const std::string& path, const ExtractOptions& options) {
   const cv::Mat image = detail::load_image(path, options.max_pixels);
-  const cv::Mat field = detail::coverage(image, path);
-  Loops loops = sort_loops(detail::contours(field, 0.5F, kLeastPoints), options.min_area);
+  detail::Coverage coverage = detail::coverage(image, path);
+  Loops loops = sort_loops(detail::contours(coverage.field, 0.5F, kLeastPoints), options.min_area);
   if (loops.outer.empty()) {
     throw InputError(path, "no piece: what stands out is smaller than a few pixels", "scan with more pixels");
   }
   Extraction result;
+  result.notes = std::move(coverage.notes);
   judge_cut_pieces(loops.outer, image, result.notes);
+  if (std::any_of(loops.outer.begin(), loops.outer.end(),
+                  [&](const Polygon& polygon) { return is_blurred(polygon, coverage.field); })) {
+    result.notes.emplace_back(
+        "the outline is blurred, so look whether it is the piece's or that of light on the background");
+  }
   result.pieces.reserve(loops.outer.size());
   for (Polygon& polygon : loops.outer) {
     Outline outline;

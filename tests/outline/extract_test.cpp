@@ -106,6 +106,46 @@ TEST(Extract, PlainBackgroundNeedsNoAlpha) {
   }
 }
 
+/// The picture under light that falls off over it, and differently in each colour.
+cv::Mat in_uneven_light(cv::Mat image) {
+  for (int y = 0; y < image.rows; ++y) {
+    for (int x = 0; x < image.cols; ++x) {
+      const double fall = 0.5 * x / image.cols + 0.2 * y / image.rows;
+      auto& pixel = image.at<cv::Vec3b>(y, x);
+      for (int c = 0; c < 3; ++c)
+        pixel[c] = cv::saturate_cast<uchar>(pixel[c] * (1.0 - fall * (0.8 + 0.1 * c)));
+    }
+  }
+  return image;
+}
+
+// The disc is 30 % darker than the background, which is 60 % darker at one corner than at the other.
+TEST(Extract, UnevenLightIsEvenedOutWithANote) {
+  const Folder folder;
+  cv::imwrite(folder.file("lamp.png"),
+              in_uneven_light(painted(disc({150, 130}), {0.65, 0.6, 0.55}, {0.9, 0.9, 0.9}, 255, CV_8UC3)));
+  const Extraction found = extract(folder.file("lamp.png"));
+  ASSERT_EQ(found.pieces.size(), 1U);
+  expect_disc(found.pieces[0], 0.3);
+  ASSERT_EQ(found.notes.size(), 1U);
+  EXPECT_NE(found.notes[0].find("evened out"), std::string::npos) << found.notes[0];
+}
+
+TEST(Extract, OutlineOfAGlowIsToldAsBlurred) {
+  const Folder folder;
+  cv::Mat image(200, 200, CV_8UC3, cv::Scalar(60, 60, 60));
+  for (int y = 0; y < image.rows; ++y) {
+    for (int x = 0; x < image.cols; ++x) {
+      const double glow = std::max(0.0, 1.0 - glm::distance(glm::dvec2(x, y), glm::dvec2(100, 100)) / 90.0);
+      image.at<cv::Vec3b>(y, x) = cv::Vec3b::all(cv::saturate_cast<uchar>(60 + 180 * glow));
+    }
+  }
+  cv::imwrite(folder.file("glow.png"), image);
+  const Extraction found = extract(folder.file("glow.png"));
+  ASSERT_EQ(found.notes.size(), 1U);
+  EXPECT_NE(found.notes[0].find("blurred"), std::string::npos) << found.notes[0];
+}
+
 TEST(Extract, JpegIsReadToAPixel) {
   const Folder folder;
   cv::imwrite(folder.file("disc.jpg"),

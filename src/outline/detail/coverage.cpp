@@ -1,11 +1,14 @@
 #include "outline/detail/coverage.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
-#include "core/median.hpp"
+#include "outline/detail/background.hpp"
 
 namespace rejoin::outline::detail {
 namespace {
@@ -17,24 +20,8 @@ constexpr double kStaircaseBlur = 0.7;
 constexpr double kLeastContrast = 0.04;
 /// The background is plain if no more than this share of the frame is a piece or something else.
 constexpr double kMostOfFrame = 0.6;
-
-/// Pixels of the picture's frame, each channel apart.
-std::array<std::vector<float>, 3> frame_colours(const cv::Mat& image) {
-  std::array<std::vector<float>, 3> channels;
-  const auto add = [&](int y, int x) {
-    const auto& pixel = image.at<cv::Vec3f>(y, x);
-    for (int c = 0; c < 3; ++c) channels[static_cast<std::size_t>(c)].push_back(pixel[c]);
-  };
-  for (int x = 0; x < image.cols; ++x) {
-    add(0, x);
-    add(image.rows - 1, x);
-  }
-  for (int y = 0; y < image.rows; ++y) {
-    add(y, 0);
-    add(y, image.cols - 1);
-  }
-  return channels;
-}
+/// Light weaker than this share of the brightest is not made up for further.
+constexpr float kLeastLight = 0.1F;
 
 struct Classes {
   double threshold = 0.0;
@@ -75,17 +62,22 @@ Classes otsu(const cv::Mat& values, double top) {
   return best;
 }
 
-/// Distance of each pixel's colour from the colour that the frame has most.
-cv::Mat distance_from_background(const cv::Mat& image) {
-  auto frame = frame_colours(image);
-  const cv::Scalar background(median(frame[0]), median(frame[1]), median(frame[2]));
-  cv::Mat difference;
-  cv::absdiff(image, background, difference);
+/// How far each pixel's colour is from the background's, as it would be were all of the picture lit as its brightest frame.
+cv::Mat distance_from(const Background& background, const cv::Mat& image) {
+  const cv::Vec3f brightest = background.brightest();
   cv::Mat distance(image.size(), CV_32F);
   for (int y = 0; y < image.rows; ++y) {
     for (int x = 0; x < image.cols; ++x) {
-      const auto& d = difference.at<cv::Vec3f>(y, x);
-      distance.at<float>(y, x) = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+      const cv::Vec3f behind = background.colour(x, y);
+      const auto& pixel = image.at<cv::Vec3f>(y, x);
+      float sum = 0.0F;
+      for (int c = 0; c < 3; ++c) {
+        const float lit =
+            background.plain() ? 1.0F : brightest[c] / std::max(behind[c], kLeastLight * brightest[c]);
+        const float d = (pixel[c] - behind[c]) * lit;
+        sum += d * d;
+      }
+      distance.at<float>(y, x) = std::sqrt(sum);
     }
   }
   return distance;
@@ -104,8 +96,9 @@ double share_of_frame_above(const cv::Mat& field, double level) {
   return above / all;
 }
 
-cv::Mat coverage_from_background(const cv::Mat& image, const std::string& path) {
-  const cv::Mat distance = distance_from_background(image);
+Coverage coverage_from_background(const cv::Mat& image, const std::string& path) {
+  const Background background(image);
+  const cv::Mat distance = distance_from(background, image);
   double top = 0.0;
   cv::minMaxLoc(distance, nullptr, &top);
   const Classes classes = top > 0.0 ? otsu(distance, top) : Classes{};
@@ -117,9 +110,15 @@ cv::Mat coverage_from_background(const cv::Mat& image, const std::string& path) 
     throw InputError(path, "the background is not plain",
                      "leave plain background all around the pieces, or cut them out (alpha)");
   }
-  cv::Mat result;
-  distance.convertTo(result, CV_32F, 0.5 / classes.threshold);
-  return cv::min(result, 1.0);
+  Coverage result;
+  if (!background.plain()) {
+    result.notes.push_back(fmt::format(
+        "the background's light changes from 100 to {:.0f} % over the picture, which is evened out",
+        100.0 * background.darkest()));
+  }
+  distance.convertTo(result.field, CV_32F, 0.5 / classes.threshold);
+  result.field = cv::min(result.field, 1.0);
+  return result;
 }
 
 /// Whether the mask has no values between outside and inside.
@@ -131,7 +130,7 @@ bool is_binary(const cv::Mat& alpha) {
 
 }  // namespace
 
-cv::Mat coverage(const cv::Mat& image, const std::string& path) {
+Coverage coverage(const cv::Mat& image, const std::string& path) {
   if (image.channels() == 3) return coverage_from_background(image, path);
   cv::Mat alpha;
   cv::extractChannel(image, alpha, 3);
@@ -148,7 +147,7 @@ cv::Mat coverage(const cv::Mat& image, const std::string& path) {
   // A padded blur, so that a piece at the picture's border is not drawn inwards.
   if (is_binary(alpha))
     cv::GaussianBlur(alpha, alpha, cv::Size(), kStaircaseBlur, kStaircaseBlur, cv::BORDER_REPLICATE);
-  return alpha;
+  return {alpha, {}};
 }
 
 }  // namespace rejoin::outline::detail

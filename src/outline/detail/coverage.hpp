@@ -7,11 +7,16 @@
 
 namespace rejoin::outline::detail {
 
-/// How much each pixel belongs to a piece: CV_32F, the border of the pieces at 0.5.  From alpha where the picture has
-/// transparent pixels; otherwise from the colour's distance to the background.
+struct Coverage {
+  cv::Mat field;  ///< CV_32F, how much each pixel belongs to a piece; the border of the pieces at 0.5
+  std::vector<std::string> notes;  ///< what was repaired or may be wrong, a sentence each; for the user
+};
+
+/// How much each pixel belongs to a piece.  From alpha where the picture has
+/// transparent pixels; otherwise from the colour's distance to the background (detail::Background).
 /// \param image  CV_32F, 3 or 4 channels, 0..1
 /// \param path   for messages
 /// \throws InputError nothing is opaque, or nothing stands out from the background, or the background is not plain
-cv::Mat coverage(const cv::Mat& image, const std::string& path);
+Coverage coverage(const cv::Mat& image, const std::string& path);
 
 }  // namespace rejoin::outline::detail
