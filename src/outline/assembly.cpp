@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
+#include <tuple>
 
 #include "core/parallel.hpp"
 #include "outline/detail/links.hpp"
@@ -24,8 +26,6 @@ constexpr double kSameShift = 0.04;
 constexpr double kLeastJoin = 2.0;
 // Pieces that share less than this, or face each other over less, only touch, as corners do; steps.
 constexpr double kShortestJoin = 8.0;
-// Information, in nats, at which a score is a half.
-constexpr double kHalfScore = 20.0;
 
 /// All links between two groups that move the second in about the same way.
 struct Bundle {
@@ -131,7 +131,8 @@ class Assembler {
     double information = 0.0;
     for (const PlacedContact& c : across) information += c.contact.information;
     // Settled contacts of short joins say little at the scale of the whole; what the search for pairs is sure of needs no more.
-    const bool enough = information >= options_.least_information || links_[bundle.links[0]].sure;
+    const bool enough =
+        information >= options_.least_information || links_[bundle.links[0]].score >= kSureScore;
     if (!enough || across.empty() || !holds(across, 1.0)) return false;
     layout_ = std::move(trial);
     return true;
@@ -183,16 +184,21 @@ class Assembler {
   std::set<std::array<std::size_t, 3>> refused_;
 };
 
-/// Whether the search for pairs proposed a join at about the pose in which the pieces lie now.
-bool proposed(const LinkedPieces& pieces, const SharedBorder& border, const Layout& layout) {
+/// The best score that the search for pairs gave a join at about the pose in which the pieces lie now; none if it proposed
+/// no such join.
+std::optional<double> proposed_score(const LinkedPieces& pieces, const SharedBorder& border,
+                                     const Layout& layout) {
   const Silhouette& shape = pieces.shapes[border.b];
   const glm::dvec2 centre = 0.5 * (shape.low + shape.high);
   const Planar placed = inverse(layout.pose(border.a)) * layout.pose(border.b);
-  return std::any_of(pieces.links.begin(), pieces.links.end(), [&](const Link& link) {
-    return link.a == border.a && link.b == border.b && angle_between(link.pose, placed) < kSameTurn &&
-           glm::distance(link.pose(centre), placed(centre)) <
-               kSameShift * glm::distance(shape.low, shape.high);
-  });
+  std::optional<double> best;
+  for (const Link& link : pieces.links) {
+    if (link.a != border.a || link.b != border.b || angle_between(link.pose, placed) >= kSameTurn) continue;
+    if (glm::distance(link.pose(centre), placed(centre)) >= kSameShift * glm::distance(shape.low, shape.high))
+      continue;
+    best = std::max(best.value_or(0.0), link.score);
+  }
+  return best;
 }
 
 /// Reads the result off the layout.
@@ -212,7 +218,9 @@ class Description {
     for (std::size_t number = 0; number < order.size(); ++number) add_group(order[number], number);
     std::sort(result_.unplaced.begin(), result_.unplaced.end());
     std::stable_sort(result_.joins.begin(), result_.joins.end(),
-                     [](const AssemblyJoin& p, const AssemblyJoin& q) { return p.score > q.score; });
+                     [](const AssemblyJoin& p, const AssemblyJoin& q) {
+                       return std::tie(p.score, p.contact) > std::tie(q.score, q.contact);
+                     });
     result_.rms = length_ > 0.0 ? std::sqrt(squares_ / length_) : 0.0;
     return std::move(result_);
   }
@@ -220,17 +228,11 @@ class Description {
  private:
   void add_group(std::size_t group, std::size_t number) {
     const std::vector<std::size_t>& members = layout_.members(group);
-    std::vector<double> support(layout_.size(), 0.0);
     std::map<std::pair<std::size_t, std::size_t>, Contact> contacts;
-    for (const PlacedContact& c : layout_.contacts_within(group)) {
-      support[c.a] += c.contact.information;
-      support[c.b] += c.contact.information;
-      contacts[{c.a, c.b}] = c.contact;
-    }
+    for (const PlacedContact& c : layout_.contacts_within(group)) contacts[{c.a, c.b}] = c.contact;
     const bool alone = members.size() == 1;
     for (const std::size_t piece : members) {
-      result_.placements[piece] = {alone ? Planar{} : layout_.pose(piece), number,
-                                   support[piece] / (support[piece] + kHalfScore)};
+      result_.placements[piece] = {alone ? Planar{} : layout_.pose(piece), number, 0.0};
       if (alone) result_.unplaced.push_back(piece);
     }
     if (!alone) add_joins(members, contacts);
@@ -244,8 +246,12 @@ class Description {
     for (const SharedBorder& border : shared_borders(pieces_, members, poses, linked_.tolerance)) {
       const auto measured = contacts.find({border.a, border.b});
       const Contact contact = measured == contacts.end() ? Contact{} : measured->second;
-      const AssemblyJoin join{border.a, border.b, contact.information / (contact.information + kHalfScore),
-                              border.length, proposed(linked_, border, layout_)};
+      const std::optional<double> score = proposed_score(linked_, border, layout_);
+      const AssemblyJoin join{border.a, border.b, score.value_or(0.0), border.length, score.has_value()};
+      for (const std::size_t piece : {border.a, border.b}) {
+        double& confidence = result_.placements[piece].confidence;
+        confidence = 1.0 - (1.0 - confidence) * (1.0 - join.score);
+      }
       if (std::min(contact.length, border.length) < kShortestJoin * linked_.step) {
         result_.touches.push_back(join);
         continue;

@@ -22,14 +22,15 @@ struct AssemblyOptions {
 struct Placement {
   Planar pose;              ///< file coordinates -> the group's frame; identity if the piece is alone
   std::size_t group = 0;    ///< the same for pieces of one object; groups are numbered by size, largest first
-  double confidence = 0.0;  ///< 0..1, from all that holds the piece in its place; 0: placed nowhere
+  double confidence = 0.0;  ///< 0..1, that one of its joins is true, by their scores; 0: placed nowhere
 };
 
 /// Two placed pieces that share border.
 struct AssemblyJoin {
   std::size_t a = 0;
   std::size_t b = 0;
-  double score = 0.0;    ///< 0..1, from how well the two borders follow each other; 0 where they say nothing
+  double score =
+      0.0;  ///< 0..1, what the search for pairs gave the join that lies here; 0 if it proposed none
   double contact = 0.0;  ///< length of the shared border, file units; see shared_borders()
   bool proposed =
       false;  ///< by the search for pairs; if not, the pieces lie side by side because of other joins

@@ -100,6 +100,22 @@ TEST(Assembly, JoinsWhatThePairsSearchIsSureOfHoweverLittleTheContactSays) {
   }
 }
 
+TEST(Assembly, GivesAJoinTheScoreOfItsPairAndAPieceTheChanceThatOneIsTrue) {
+  const planted::Board board = planted::broken_board(2, 1, 0.05, 43);
+  std::vector<PairResult> pairs(1);
+  JoinCandidate candidate;
+  candidate.pose = inverse(board.poses[0]) * board.poses[1];
+  candidate.score = 0.8;
+  JoinCandidate elsewhere;
+  elsewhere.pose = Planar{1.0, {900.0, 40.0}, false} * candidate.pose;
+  elsewhere.score = 0.9;
+  pairs[0].candidates = {elsewhere, candidate};
+  const Assembly assembly = assemble(board.pieces, pairs, {}, Context());
+  ASSERT_EQ(assembly.joins.size(), 1U);
+  EXPECT_DOUBLE_EQ(assembly.joins[0].score, 0.8);
+  for (const Placement& placed : assembly.placements) EXPECT_NEAR(placed.confidence, 0.8, 1e-12);
+}
+
 TEST(Assembly, ASecondScanOfAPieceIsNotLaidOnTheFirst) {
   planted::Board board = planted::broken_board(3, 3, 0.05, 12);
   const std::vector<AssemblyJoin> once = assembled(board.pieces).joins;

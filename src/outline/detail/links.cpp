@@ -43,10 +43,10 @@ std::vector<Link> links_at(const std::vector<Silhouette>& shapes, const std::vec
       for (std::size_t k = 0; k < pairs[i].candidates.size() && k < kCandidates; ++k) {
         const Planar pose = settle(shapes[a], shapes[b], pairs[i].candidates[k].pose, tolerance, 3);
         const Contact contact = measure_contact(shapes[a], shapes[b], pose, tolerance);
-        const bool sure = pairs[i].candidates[k].score >= kSureScore;
-        if (contact.information < kLeastHint && !sure) continue;
+        const double score = pairs[i].candidates[k].score;
+        if (contact.information < kLeastHint && score < kSureScore) continue;
         if (contact.intrusion > options.most_intrusion * contact.length) continue;
-        found[i].push_back({a, b, pose, contact.information, contact.length, sure});
+        found[i].push_back({a, b, pose, contact.information, contact.length, score});
       }
     }
   });

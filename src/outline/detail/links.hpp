@@ -16,7 +16,7 @@ struct Link {
   Planar pose;         ///< b -> a
   double information;  ///< nats
   double length;       ///< of the contact, file units
-  bool sure;           ///< the search for pairs calls it a join
+  double score;        ///< of the candidate, by the search for pairs
 };
 
 /// Pieces and their links at one scale.
