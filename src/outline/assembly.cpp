@@ -33,7 +33,7 @@ struct Bundle {
   std::size_t second = 0;
   Planar moved;  // second -> first
   double information = 0.0;
-  std::vector<std::size_t> links;
+  std::size_t seed = 0;  // the link that it is made around
 };
 
 class Assembler {
@@ -92,35 +92,42 @@ class Assembler {
 
   void add_bundles(std::size_t first, std::size_t second, const std::vector<std::size_t>& indices,
                    std::vector<Bundle>& bundles) const {
-    for (const std::size_t seed : indices) {
-      Bundle bundle{first, second, motion(links_[seed], first), 0.0, {seed}};
+    std::vector<Planar> moves;
+    std::vector<Motion> motions;
+    for (const std::size_t index : indices) {
+      moves.push_back(motion(links_[index], first));
+      motions.emplace_back(moves.back());
+    }
+    for (std::size_t k = 0; k < indices.size(); ++k) {
+      const Link& seed = links_[indices[k]];
+      Bundle bundle{first, second, moves[k], 0.0, indices[k]};
+      const std::size_t piece = layout_.group(seed.a) == second ? seed.a : seed.b;
+      const Silhouette& shape = shapes_[piece];
+      const glm::dvec2 centre = layout_.pose(piece)(0.5 * (shape.low + shape.high));
+      const double reach = kSameShift * glm::distance(shape.low, shape.high);
+      const glm::dvec2 there = motions[k](centre);
       std::map<std::pair<std::size_t, std::size_t>, double> best;
-      const std::size_t piece = layout_.group(links_[seed].a) == second ? links_[seed].a : links_[seed].b;
-      for (const std::size_t other : indices) {
-        if (!same(bundle.moved, motion(links_[other], first), piece)) continue;
-        double& value = best[{links_[other].a, links_[other].b}];
-        value = std::max(value, links_[other].information);
+      for (std::size_t other = 0; other < indices.size(); ++other) {
+        if (glm::distance(there, motions[other](centre)) >= reach) continue;
+        if (angle_between(moves[k], moves[other]) >= kSameTurn) continue;
+        const Link& link = links_[indices[other]];
+        double& value = best[{link.a, link.b}];
+        value = std::max(value, link.information);
       }
       for (const auto& [pair, value] : best) bundle.information += value;
-      bundles.push_back(std::move(bundle));
+      bundles.push_back(bundle);
     }
-  }
-
-  bool same(const Planar& p, const Planar& q, std::size_t piece) const {
-    const Silhouette& shape = shapes_[piece];
-    const glm::dvec2 centre = layout_.pose(piece)(0.5 * (shape.low + shape.high));
-    return angle_between(p, q) < kSameTurn &&
-           glm::distance(p(centre), q(centre)) < kSameShift * glm::distance(shape.low, shape.high);
   }
 
   /// A bundle by its seed and the sizes of its groups: as groups grow, what was refused may hold.
   std::array<std::size_t, 3> key(const Bundle& bundle) const {
-    return {bundle.links[0], layout_.members(bundle.first).size(), layout_.members(bundle.second).size()};
+    return {bundle.seed, layout_.members(bundle.first).size(), layout_.members(bundle.second).size()};
   }
 
   bool try_merge(const Bundle& bundle) {
     // A group that is far off shows before anything is moved.
-    if (!holds(layout_.contacts_between(bundle.first, bundle.second, bundle.moved), 3.0)) return false;
+    const auto fits = [&](const PlacedContact& c) { return !intrudes(c.contact, 3.0); };
+    if (!layout_.visit_contacts(bundle.first, bundle.second, bundle.moved, fits)) return false;
     Layout trial = layout_;
     trial.merge(bundle.first, bundle.second, bundle.moved);
     trial.spread_error(bundle.first, 2.0 * tolerance_, 2);
@@ -131,9 +138,8 @@ class Assembler {
     double information = 0.0;
     for (const PlacedContact& c : across) information += c.contact.information;
     // Settled contacts of short joins say little at the scale of the whole; what the search for pairs is sure of needs no more.
-    const bool enough =
-        information >= options_.least_information || links_[bundle.links[0]].score >= kSureScore;
-    if (!enough || across.empty() || !holds(across, 1.0)) return false;
+    const bool enough = information >= options_.least_information || links_[bundle.seed].score >= kSureScore;
+    if (!enough || across.empty() || !hold(across)) return false;
     layout_ = std::move(trial);
     return true;
   }
@@ -143,28 +149,37 @@ class Assembler {
     return contact.intrusion > leniency * allowed;
   }
 
-  bool holds(const std::vector<PlacedContact>& contacts, double leniency) const {
+  bool hold(const std::vector<PlacedContact>& contacts) const {
     return std::none_of(contacts.begin(), contacts.end(),
-                        [&](const PlacedContact& c) { return intrudes(c.contact, leniency); });
+                        [&](const PlacedContact& c) { return intrudes(c.contact, 1.0); });
+  }
+
+  /// The pieces that are in a bundle's way, if less than what it says holds them; else none.
+  std::set<std::size_t> cheaper_obstacles(const Bundle& bundle) const {
+    std::set<std::size_t> obstacles;
+    double lost = 0.0;
+    const auto note = [&](const PlacedContact& c) {
+      if (!intrudes(c.contact, 1.0)) return true;
+      const double support_a = layout_.support(c.a);
+      const double support_b = layout_.support(c.b);
+      if (obstacles.insert(support_a < support_b ? c.a : c.b).second) lost += std::min(support_a, support_b);
+      return lost < bundle.information;
+    };
+    return layout_.visit_contacts(bundle.first, bundle.second, bundle.moved, note) ? obstacles
+                                                                                   : std::set<std::size_t>{};
   }
 
   /// Looks for a refused bundle that says more than what holds the pieces in its way, takes these off and joins it.
   bool resolve_one_conflict() {
     for (const Bundle& bundle : sorted_bundles()) {
       if (bundle.information < options_.least_information) return false;
-      std::set<std::size_t> in_the_way;
-      for (const PlacedContact& c : layout_.contacts_between(bundle.first, bundle.second, bundle.moved)) {
-        if (!intrudes(c.contact, 1.0)) continue;
-        in_the_way.insert(layout_.support(c.a) < layout_.support(c.b) ? c.a : c.b);
-      }
-      double lost = 0.0;
-      for (const std::size_t piece : in_the_way) lost += layout_.support(piece);
-      if (in_the_way.empty() || lost >= bundle.information) continue;
+      const std::set<std::size_t> in_the_way = cheaper_obstacles(bundle);
+      if (in_the_way.empty()) continue;
       Layout before = layout_;
       for (const std::size_t piece : in_the_way) layout_.take_off(piece);
-      const Link& seed = links_[bundle.links[0]];
+      const Link& seed = links_[bundle.seed];
       const std::size_t first = layout_.group(seed.a);
-      Bundle again{first, layout_.group(seed.b), motion(seed, first), bundle.information, bundle.links};
+      Bundle again{first, layout_.group(seed.b), motion(seed, first), bundle.information, bundle.seed};
       if (again.first != again.second && try_merge(again)) {
         for (const std::size_t piece : in_the_way) layout_.take_off(piece);
         for (std::size_t g = 0; g < layout_.size(); ++g)

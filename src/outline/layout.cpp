@@ -94,19 +94,18 @@ bool Layout::near(std::size_t a, const Planar& pose_a, std::size_t b, const Plan
   return glm::distance(pose_a(0.5 * (sa.low + sa.high)), pose_b(0.5 * (sb.low + sb.high))) < reach;
 }
 
-std::vector<PlacedContact> Layout::contacts_between(std::size_t first, std::size_t second,
-                                                    const Planar& moved) const {
-  std::vector<PlacedContact> contacts;
+bool Layout::visit_contacts(std::size_t first, std::size_t second, const Planar& moved,
+                            const std::function<bool(const PlacedContact&)>& goes_on) const {
   for (const std::size_t a : members_[first]) {
     for (const std::size_t b : members_[second]) {
       const Planar pose_b = moved * poses_[b];
       if (!near(a, poses_[a], b, pose_b)) continue;
       const Planar relative = inverse(poses_[a]) * pose_b;
-      contacts.push_back(
-          {a, b, measure_contact((*silhouettes_)[a], (*silhouettes_)[b], relative, tolerance_)});
+      if (!goes_on({a, b, measure_contact((*silhouettes_)[a], (*silhouettes_)[b], relative, tolerance_)}))
+        return false;
     }
   }
-  return contacts;
+  return true;
 }
 
 std::vector<PlacedContact> Layout::contacts_within(std::size_t group) const {

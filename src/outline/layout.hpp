@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -28,9 +29,11 @@ class Layout {
   const std::vector<std::size_t>& members(std::size_t group) const { return members_[group]; }
   const Planar& pose(std::size_t piece) const { return poses_[piece]; }
 
-  /// Contacts between the pieces of two groups when the second is moved by `moved` into the first's frame.
-  std::vector<PlacedContact> contacts_between(std::size_t first, std::size_t second,
-                                              const Planar& moved) const;
+  /// Shows the contacts between the pieces of two groups when the second is moved by `moved` into the first's frame, one after the
+  /// other for as long as `goes_on` says so.
+  /// \return false: it was stopped
+  bool visit_contacts(std::size_t first, std::size_t second, const Planar& moved,
+                      const std::function<bool(const PlacedContact&)>& goes_on) const;
 
   /// Contacts within a group.
   std::vector<PlacedContact> contacts_within(std::size_t group) const;
