@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 #include "cli/json_values.hpp"
 #include "core/error.hpp"
@@ -22,7 +23,7 @@ class Reader {
   Reader(const std::string& path, const std::vector<std::string>& names) : path_(path), names_(names) {}
 
   assembly::Constraints read() const {
-    const ordered_json json = ordered_json::parse(read_file(path_), nullptr, false);
+    const ordered_json json = parsed();
     if (json.is_discarded()) throw InputError(path_, "is no JSON", kMend);
     if (!json.is_object()) fail("is no JSON object");
     for (const auto& [key, value] : json.items()) {
@@ -43,6 +44,22 @@ class Reader {
   }
 
  private:
+  /// The file's JSON.  The parser keeps the last of equal keys and says nothing, so they are looked for here.
+  ordered_json parsed() const {
+    std::vector<std::set<std::string>> keys;
+    std::optional<std::string> repeated;
+    const auto look = [&](int /*depth*/, ordered_json::parse_event_t event, ordered_json& value) {
+      if (event == ordered_json::parse_event_t::object_start) keys.emplace_back();
+      if (event == ordered_json::parse_event_t::object_end) keys.pop_back();
+      if (event == ordered_json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second)
+        repeated = value.get<std::string>();
+      return true;
+    };
+    ordered_json json = ordered_json::parse(read_file(path_), look, false);
+    if (!json.is_discarded() && repeated) fail(fmt::format("gives \"{}\" twice", *repeated));
+    return json;
+  }
+
   [[noreturn]] void fail(const std::string& problem) const { throw InputError(path_, problem, kMend); }
 
   std::size_t number_of(const ordered_json& name, const std::string& place) const {

@@ -16,7 +16,9 @@ Console::~Console() {
 
 void Console::result(std::string_view text) {
   end_progress();
-  if (!quiet) fmt::print("{}", text);
+  if (quiet) return;
+  fmt::print("{}", text);
+  std::fflush(stdout);  // Ctrl-C during the pictures that follow must not lose it
 }
 
 void Console::warning(std::string_view text) {

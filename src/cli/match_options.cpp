@@ -65,6 +65,11 @@ match::Options MatchOptions::values() const {
   if (options.constraint == match::Constraint::Material && !options.material_a) {
     throw UsageError("--constraint material", "needs --material-a and --material-b", "add them as x,y,z");
   }
+  if (constraint_ == match::Constraint::Direction && !any_direction &&
+      options.search == match::Search::Sweep) {
+    throw UsageError("--constraint direction", "needs --direction-a or --direction-b",
+                     "add them as x,y,z, or use --search esa, which takes those of the facets");
+  }
   if (constraint_ == match::Constraint::None && (any_direction || options.material_a)) {
     throw UsageError("--constraint none", "contradicts the directions that are given",
                      "leave out one of the two");

@@ -12,7 +12,6 @@
 #include "batch/table.hpp"
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
-#include "core/files.hpp"
 #include "core/words.hpp"
 #include "store/remains.hpp"
 #include "store/run.hpp"
@@ -28,7 +27,6 @@ class MergeCommand final : public Command {
   }
 
   ExitCode run(Console& console, Context& /*context*/) override {
-    require_writable_folder(out_);
     const NothingToSave guard;
     const store::Merged merged = store::merge({runs_.begin(), runs_.end()}, out_);
     std::vector<std::filesystem::path> caches;

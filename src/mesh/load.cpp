@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <string_view>
 #include <system_error>
 
 #include "core/error.hpp"
@@ -41,6 +42,39 @@ const Format& format_of(const std::filesystem::path& path) {
                    "use one of .ply .obj .stl .off .glb .gltf .drc");
 }
 
+/// What a file's first bytes say that it is.
+struct Signature {
+  std::string_view bytes;
+  const char* what;
+  Reader read;  ///< nullptr: nothing reads it
+  const char* mend;
+};
+
+constexpr const char* kExport = "export the scan as .ply, .obj, .stl, .off or .glb";
+constexpr std::array kSignatures{
+    Signature{"ply\n", "a PLY file", detail::read_ply, "name it .ply"},
+    Signature{"ply\r", "a PLY file", detail::read_ply, "name it .ply"},
+    Signature{"glTF", "a GLB file", detail::read_gltf, "name it .glb"},
+    Signature{"DRACO", "a Draco file", detail::read_drc, "name it .drc"},
+    Signature{"OFF\n", "an OFF file", detail::read_off, "name it .off"},
+    Signature{"\x89PNG", "a PNG picture", nullptr, kExport},
+    Signature{"\xff\xd8\xff", "a JPEG picture", nullptr, kExport},
+    Signature{"PK\x03\x04", "a ZIP archive", nullptr, "unpack it"},
+    Signature{"\x1f\x8b", "a gzip archive", nullptr, "unpack it"},
+    Signature{"%PDF", "a PDF document", nullptr, kExport},
+    Signature{"<!DOCTYPE", "a web page", nullptr, "download the scan itself"},
+    Signature{"<html", "a web page", nullptr, "download the scan itself"},
+};
+
+/// Refuses a file that is known to be something else than its name says.
+void require_format(const detail::Source& source, const Format& format) {
+  for (const Signature& signature : kSignatures) {
+    if (source.bytes.rfind(signature.bytes, 0) != 0 || format.read == signature.read) continue;
+    throw InputError(source.name, fmt::format("holds {}, not what its name says", signature.what),
+                     signature.mend);
+  }
+}
+
 }  // namespace
 
 namespace detail {
@@ -60,6 +94,7 @@ Loaded load(const std::filesystem::path& path, Weld weld) {
     throw IoError(path.string(), "is a folder", "name a mesh file");
   const Format& format = format_of(path);
   const detail::Source source = detail::read_source(path);
+  require_format(source, format);
   Loaded loaded = detail::clean(format.read(source), source.name, weld);
   loaded.format = format.name;
   return loaded;

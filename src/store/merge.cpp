@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include "core/files.hpp"
 #include "store/detail/rows.hpp"
 #include "store/detail/schema.hpp"
 #include "store/run.hpp"
@@ -111,6 +112,7 @@ void put_in_place(const fs::path& part, const fs::path& output) {
 
 Merged merge(const std::vector<fs::path>& runs, const fs::path& output) {
   const Whole whole = survey(runs);
+  require_writable_folder(output);
   const fs::path part = output / "merge.part";
   std::error_code ignored;
   fs::remove_all(part, ignored);

@@ -70,6 +70,10 @@ INSTANTIATE_TEST_SUITE_P(
         Hostile{"WithItself", R"({"must_join": [["a.ply", "a.ply"]]})", "same fragment twice"},
         Hostile{"Both", R"({"must_join": [["a.ply", "c.ply"]], "must_not_join": [["c.ply", "a.ply"]]})",
                 "must and must not join"},
+        Hostile{"PoseGivenTwice",
+                R"({"poses": {"a.ply": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]], )"
+                R"("a.ply": [[1, 0, 0, 5], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}})",
+                "gives \"a.ply\" twice"},
         Hostile{"PosesAreAList", R"({"poses": []})", "no object of names"},
         Hostile{"PoseOfThreeRows", R"({"poses": {"a.ply": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]}})",
                 "no 4 x 4"},

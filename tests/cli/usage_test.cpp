@@ -86,6 +86,7 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUse{"HalfAMaterial", {"match", "a.ply", "b.ply", "--material-a", "0,0,1"}, "--material-b"},
         WrongUse{
             "MaterialWithoutAxes", {"match", "a.ply", "b.ply", "--constraint", "material"}, "--material-a"},
+        WrongUse{"NoDirections", {"match", "a.ply", "b.ply", "--constraint", "direction"}, "--direction-a"},
         WrongUse{"DirectionWithoutConstraint",
                  {"match", "a.ply", "b.ply", "--constraint", "none", "--direction-a", "0,0,1"},
                  "--constraint none"},

@@ -69,6 +69,14 @@ TEST_F(Malformed, TextThatIsNotAMesh) {
   expect("a.drc", text, Kind::Input, "is not Draco data");
 }
 
+TEST_F(Malformed, FilesUnderAnotherKindsName) {
+  expect("a.obj", ply("ascii", 3, 1), Kind::Input, "holds a PLY file, not what its name says; name it .ply");
+  expect("a.ply", "glTF and more", Kind::Input, "holds a GLB file");
+  expect("b.obj", "\x89PNG\r\n\x1a\n", Kind::Input, "holds a PNG picture");
+  expect("b.ply", "<!DOCTYPE html><title>Not found</title>", Kind::Input, "holds a web page");
+  expect("c.ply", "one line that does not end", Kind::Input, "is not a PLY file");
+}
+
 TEST_F(Malformed, UnknownExtensionAndMissingFileAndFolder) {
   expect("a.xyz", "0 0 0\n", Kind::Input, "unknown extension .xyz");
   expect("scan", "0 0 0\n", Kind::Input, "no file name extension");

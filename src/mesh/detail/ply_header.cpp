@@ -71,19 +71,18 @@ class HeaderReader {
   }
 
   std::string next_line() {
+    if (line_ == 0 && source_.bytes.rfind("ply", 0) != 0)
+      throw InputError(source_.name, "is not a PLY file (does not start with \"ply\")",
+                       "check the file's format");
     const std::size_t end = source_.bytes.find('\n', position_);
     if (end == std::string::npos) fail("the file ends before end_header");
     std::string line = source_.bytes.substr(position_, end - position_);
     position_ = end + 1;
     ++line_;
     if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (line_ == 1) {
-      if (line != "ply")
-        throw InputError(source_.name, "is not a PLY file (does not start with \"ply\")",
-                         "check the file's format");
-      return next_line();
-    }
-    return line;
+    if (line_ > 1) return line;
+    if (line != "ply") fail("is not \"ply\"");
+    return next_line();
   }
 
   void read_format(std::istringstream& words) {
