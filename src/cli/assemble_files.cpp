@@ -114,10 +114,12 @@ std::string assembly_json(const AssembleInput& input, const assembly::Result& re
     if (placement.group < 0) {
       unplaced.push_back(input.names[k]);
       fragments[input.names[k]] = left_out(reason_of(input, result, k));
-      continue;
+    } else {
+      fragments[input.names[k]] = {{"pose", to_json(placement.pose)},
+                                   {"group", placement.group},
+                                   {"confidence", placement.confidence}};
     }
-    fragments[input.names[k]] = {
-        {"pose", to_json(placement.pose)}, {"group", placement.group}, {"confidence", placement.confidence}};
+    fragments[input.names[k]]["scan"] = input.hashes[k];
   }
   for (const auto& [name, reason] : input.bad) {
     unplaced.push_back(name);

@@ -50,6 +50,7 @@ std::map<std::int64_t, std::size_t> load_all(const store::Run& run, const fs::pa
       input.fragments.push_back(load_one(fragment, folder, console, context));
       input.names.push_back(fragment.name);
       input.paths.push_back(fragment.path);
+      input.hashes.push_back(fragment.hash);
       number[fragment.id] = input.names.size() - 1;
     } catch (const Error& error) {
       console.warning(error.what());

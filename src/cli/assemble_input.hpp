@@ -15,8 +15,9 @@ namespace rejoin::cli {
 
 /// Fragments and the poses of their pairs, ready for assembly.
 struct AssembleInput {
-  std::vector<std::string> names;  ///< of the files, ascending
-  std::vector<std::string> paths;  ///< where the scans were read
+  std::vector<std::string> names;   ///< of the files, ascending
+  std::vector<std::string> paths;   ///< where the scans were read
+  std::vector<std::string> hashes;  ///< of their content
   std::vector<match::Fragment> fragments;
   std::vector<assembly::Link> links;
   store::Remains remains;                  ///< of the run

@@ -38,12 +38,14 @@ using Numbers = std::map<std::string, std::size_t>;
 /// Takes poses, groups and joins over from the assembly.
 class AssemblyReader {
  public:
-  AssemblyReader(std::filesystem::path path, report::RunReport& report, const Numbers& numbers)
-      : path_(std::move(path)), report_(report), numbers_(numbers) {}
+  /// \param stored  of the report's fragments, in their order
+  AssemblyReader(std::filesystem::path path, report::RunReport& report, const Numbers& numbers,
+                 const std::vector<store::Fragment>& stored)
+      : path_(std::move(path)), report_(report), numbers_(numbers), stored_(stored) {}
 
-  /// Reasons why fragments are left out hold only if no pair was compared since.
-  /// \return pairs that were compared since it was made
-  std::size_t read() {
+  /// Reasons why fragments are left out hold only if the run has not changed since.
+  /// \return what changed since it was made, for the user; empty: nothing
+  std::string read() {
     try {
       return read_fields();
     } catch (const ordered_json::exception& error) {  // a value of another type than the schema has
@@ -52,17 +54,19 @@ class AssemblyReader {
   }
 
  private:
-  std::size_t read_fields() {
+  std::string read_fields() {
     const ordered_json json = ordered_json::parse(read_file(path_), nullptr, false);
     if (!json.is_object() || json.value("schema", "") != "rejoin.assembly/1")
       refuse(path_, "is no assembly (schema rejoin.assembly/1)");
     if (!json.contains("fragments") || !json["fragments"].is_object()) refuse(path_, "has no \"fragments\"");
     const std::size_t missing = json.value("pairs_missing", report_.missing_pairs);
-    later_ = missing - std::min(missing, report_.missing_pairs);
+    const std::size_t later = missing - std::min(missing, report_.missing_pairs);
+    if (later > 0) change_ = fmt::format("the assembly is older than {} of the pairs", later);
+    for (const auto& [name, value] : json["fragments"].items()) look_for_another_scan(name, value);
     for (const auto& [name, value] : json["fragments"].items()) place(name, value);
     const ordered_json joins = json.value("joins", ordered_json::array());
     for (const ordered_json& join : joins) use(join);
-    return later_;
+    return change_;
   }
 
   std::size_t number_of(const ordered_json& name) const {
@@ -71,10 +75,16 @@ class AssemblyReader {
     return at->second;
   }
 
+  void look_for_another_scan(const std::string& name, const ordered_json& value) {
+    const std::string& hash = stored_[number_of(name)].hash;
+    if (!change_.empty() || !value.is_object() || value.value("scan", hash) == hash) return;
+    change_ = "the assembly was made with another scan of " + name;
+  }
+
   void place(const std::string& name, const ordered_json& value) {
     report::ReportFragment& fragment = report_.fragments[number_of(name)];
     if (!value.is_object()) refuse(path_, "fragment \"" + name + "\" is no object");
-    if (later_ == 0) fragment.reason = value.value("reason", fragment.reason);
+    if (change_.empty()) fragment.reason = value.value("reason", fragment.reason);
     const int group = value.value("group", -1);
     if (group < 0 || !value.contains("pose") || value["pose"].is_null()) return;
     fragment.pose = rigid_from_json(value["pose"]);
@@ -112,7 +122,8 @@ class AssemblyReader {
   std::filesystem::path path_;
   report::RunReport& report_;
   const Numbers& numbers_;
-  std::size_t later_ = 0;  ///< pairs compared since
+  const std::vector<store::Fragment>& stored_;
+  std::string change_;  ///< of the run since the assembly was made
 };
 
 /// The scan's surface, or the one that the run keeps of it; none of what is no scan or a copy.
@@ -301,11 +312,10 @@ report::RunReport read_run(const std::filesystem::path& run, std::size_t listed,
   report.missing_pairs = remains.missing;
   std::string not_placed = "not assembled yet (rejoin assemble)";
   if (std::filesystem::exists(assembly)) {
-    const std::size_t later = AssemblyReader(assembly, report, numbers).read();
-    not_placed = later > 0 ? "the assembly is older than some of its pairs (rejoin assemble)" : "";
-    if (later > 0) {
-      report.warnings.push_back(fmt::format(
-          "the assembly is older than {} of the pairs; make it again with rejoin assemble", later));
+    const std::string change = AssemblyReader(assembly, report, numbers, fragments).read();
+    not_placed = change.empty() ? "" : change + " (rejoin assemble)";
+    if (!change.empty()) {
+      report.warnings.push_back(change + "; make it again with rejoin assemble");
       console.warning(report.warnings.back());
     }
   }

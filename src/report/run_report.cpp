@@ -32,15 +32,13 @@ void require_valid(const RunReport& report) {
   }
 }
 
-/// The pairs that are listed, best first: those that the assembly uses, and the best of the others.
+/// The pairs that are listed, best first (equal scores as given): those that the assembly uses, and the best of the others.
 std::vector<std::size_t> listed_pairs(const RunReport& report, std::size_t count) {
   std::vector<std::size_t> order(report.pairs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto key = [&](std::size_t k) {
-    const ReportPair& pair = report.pairs[k];
-    return std::tuple(-pair.score, std::min(pair.a, pair.b), std::max(pair.a, pair.b));
-  };
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return report.pairs[a].score > report.pairs[b].score;
+  });
   std::size_t others = 0;
   order.erase(std::remove_if(order.begin(), order.end(),
                              [&](std::size_t k) { return !report.pairs[k].used && others++ >= count; }),

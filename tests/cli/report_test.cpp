@@ -130,12 +130,16 @@ TEST(Report, TellsThatTheAssemblyIsOlderThanThePairsAndTakesBackItsReasons) {
   ASSERT_EQ(stale.exit_code, 0) << stale.err;
   EXPECT_NE(stale.err.find("the assembly is older than 1 of the pairs"), std::string::npos) << stale.err;
   const std::string reason = data_of(read_file(run.page))["fragments"][0]["reason"];
-  EXPECT_EQ(reason.find("the assembly is older than some of its pairs"), 0U) << reason;
+  EXPECT_EQ(reason.find("the assembly is older than 1 of the pairs"), 0U) << reason;
   assembly["pairs_missing"] = 2;  // as now
   run.assemble(assembly.dump());
   const Finished fresh = testing::run({"report", run.folder, "--pictures", "0"});
   EXPECT_EQ(fresh.err.find("older"), std::string::npos) << fresh.err;
   EXPECT_EQ(data_of(read_file(run.page))["fragments"][0]["reason"], left_out["reason"]);
+  assembly["fragments"]["a.ply"]["scan"] = "the content of an older scan";
+  run.assemble(assembly.dump());
+  const Finished replaced = testing::run({"report", run.folder, "--pictures", "0"});
+  EXPECT_NE(replaced.err.find("made with another scan of a.ply"), std::string::npos) << replaced.err;
 }
 
 TEST(Report, RefusesAnAssemblyThatIsNoneOfThisRun) {
