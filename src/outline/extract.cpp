@@ -22,11 +22,12 @@ constexpr double kBorderBand = 0.25;
 constexpr double kMostOnBorder = 12.0;
 /// Colours are taken this far inside, so that the background does not bleed in, pixels.
 constexpr double kColourDepth = 3.0;
-// A border is an edge where the coverage rises by so much from as many pixels outside to as many inside; a piece has hardly
-// anything else.
-constexpr double kEdgeReach = 3.0;
-constexpr float kLeastEdge = 0.25F;
-constexpr double kMostBlurred = 0.1;
+// A border is an edge where this share of what it rises by over the wide reach it rises by over the narrow one, in pixels to
+// either side; but for print a piece has hardly anything else.
+constexpr double kNarrowReach = 3.0;
+constexpr double kWideReach = 9.0;
+constexpr float kLeastEdge = 0.45F;
+constexpr double kMostBlurred = 0.3;
 /// The border's direction at a point is that from this many points before to as many after.
 constexpr std::size_t kDirectionReach = 4;
 
@@ -87,16 +88,18 @@ std::vector<glm::dvec3> border_colours(const Polygon& polygon, const cv::Mat& im
 }
 
 /// Whether much of the border is no edge but a slow change, as of light.
-bool is_blurred(const Polygon& polygon, const cv::Mat& field) {
+bool is_blurred(const Polygon& polygon, const cv::Mat& distance) {
   const Polygon inward = inward_directions(polygon);
   const auto at = [&](const glm::dvec2& p) {
     const cv::Point pixel(static_cast<int>(std::lround(p.x)), static_cast<int>(std::lround(p.y)));
-    return cv::Rect({0, 0}, field.size()).contains(pixel) ? field.at<float>(pixel) : 0.0F;
+    return cv::Rect({0, 0}, distance.size()).contains(pixel) ? distance.at<float>(pixel) : 0.0F;
   };
   std::size_t slow = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const glm::dvec2 step = kEdgeReach * inward[i];
-    if (at(polygon[i] + step) - at(polygon[i] - step) < kLeastEdge) ++slow;
+    const auto rise = [&](double reach) {
+      return at(polygon[i] + reach * inward[i]) - at(polygon[i] - reach * inward[i]);
+    };
+    if (rise(kNarrowReach) < kLeastEdge * rise(kWideReach)) ++slow;
   }
   return static_cast<double>(slow) > kMostBlurred * static_cast<double>(polygon.size());
 }
@@ -165,7 +168,7 @@ Extraction extract(const std::string& path, const ExtractOptions& options) {
   result.notes = std::move(coverage.notes);
   judge_cut_pieces(loops.outer, image, result.notes);
   if (std::any_of(loops.outer.begin(), loops.outer.end(),
-                  [&](const Polygon& polygon) { return is_blurred(polygon, coverage.field); })) {
+                  [&](const Polygon& polygon) { return is_blurred(polygon, coverage.distance); })) {
     result.notes.emplace_back(
         "the outline is blurred, so look whether it is the piece's or that of light on the background");
   }

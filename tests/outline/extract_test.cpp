@@ -131,6 +131,50 @@ TEST(Extract, UnevenLightIsEvenedOutWithANote) {
   EXPECT_NE(found.notes[0].find("evened out"), std::string::npos) << found.notes[0];
 }
 
+// Stripes of ink run out of the disc every 12 pixels, nearer to the background than to the paper, or farther.  They may be bitten
+// by some pixels, not cut off.
+TEST(Extract, PrintAtTheBorderIsPartOfThePiece) {
+  struct Page {
+    cv::Vec3d background;
+    cv::Vec3d ink;
+    int stripe;  // pixels
+  };
+  const Folder folder;
+  const cv::Mat cover = disc({128, 120});
+  for (const Page& page :
+       {Page{{0.12, 0.12, 0.12}, {0.0, 0.0, 0.0}, 4}, Page{{0.8, 0.8, 0.8}, {0.1, 0.1, 0.1}, 2}}) {
+    cv::Mat image = painted(cover, {0.95, 0.95, 0.92}, page.background, 255, CV_8UC3);
+    const cv::Mat printed = painted(cover, page.ink, page.background, 255, CV_8UC3);
+    for (int y = 0; y < image.rows; ++y)
+      if (y % 12 < page.stripe && std::abs(y - kCentre.y) < 25.0) printed.row(y).copyTo(image.row(y));
+    cv::imwrite(folder.file("page.png"), image);
+    const Extraction found = extract(folder.file("page.png"));
+    ASSERT_EQ(found.pieces.size(), 1U);
+    expect_disc(found.pieces[0], 3.5);
+    EXPECT_TRUE(found.notes.empty()) << found.notes[0];
+  }
+}
+
+// The shadow, 30 % at its darkest, reaches 14 pixels beyond the disc on one side.
+TEST(Extract, ShadowIsNoPartOfThePiece) {
+  const Folder folder;
+  const cv::Mat cover = disc({150, 130});
+  cv::Mat shadow;
+  cv::warpAffine(cover, shadow, cv::Matx23d(1, 0, 6, 0, 1, 4), cover.size());
+  cv::GaussianBlur(shadow, shadow, cv::Size(), 5.0);
+  cv::Mat image = painted(cover, {0.5, 0.4, 0.3}, {0.9, 0.9, 0.9}, 255, CV_8UC3);
+  for (int y = 0; y < image.rows; ++y) {
+    for (int x = 0; x < image.cols; ++x) {
+      const double light = 1.0 - 0.3 * shadow.at<float>(y, x) * (1.0 - cover.at<float>(y, x));
+      image.at<cv::Vec3b>(y, x) *= light;
+    }
+  }
+  cv::imwrite(folder.file("shadow.png"), image);
+  const Extraction found = extract(folder.file("shadow.png"));
+  ASSERT_EQ(found.pieces.size(), 1U);
+  expect_disc(found.pieces[0], 1.0);
+}
+
 TEST(Extract, OutlineOfAGlowIsToldAsBlurred) {
   const Folder folder;
   cv::Mat image(200, 200, CV_8UC3, cv::Scalar(60, 60, 60));

@@ -11,9 +11,9 @@ namespace rejoin::outline::detail {
 namespace {
 
 /// A pixel whose colour is this near to the background's follows it, 0..1 a channel.
-constexpr double kFollows = 0.05;
-/// A surface is worth its terms if it explains this much more of the frame than one colour does.
-constexpr double kWorthASurface = 0.1;
+constexpr double kFollows = 0.04;
+/// A surface is worth its terms if this much more of the picture follows it than follows one colour.
+constexpr double kWorthASurface = 0.05;
 /// Rounds in which what follows a surface is chosen and the surface fitted to it again.
 constexpr int kRounds = 12;
 /// Share of the frame that a first surface is fitted to: the rest may be pieces.
@@ -82,7 +82,8 @@ Background::Terms Background::terms(int x, int y) const {
       size_.width > 1 ? 2.0F * static_cast<float>(x) / static_cast<float>(size_.width - 1) - 1.0F : 0.0F;
   const float v =
       size_.height > 1 ? 2.0F * static_cast<float>(y) / static_cast<float>(size_.height - 1) - 1.0F : 0.0F;
-  return {1.0F, u, v, u * u, u * v, v * v};
+  const float square = u * u + v * v;
+  return {1.0F, u, v, u * u, u * v, v * v, square * square};
 }
 
 cv::Vec3f Background::colour(int x, int y) const {
@@ -137,22 +138,24 @@ Background::Background(const cv::Mat& image) : size_(image.size()) {
     for (const cv::Point& place : frame) values.push_back(image.at<cv::Vec3f>(place)[channel]);
     factors_[static_cast<std::size_t>(channel)][0] = median(values);
   }
-  const double of_one_colour = share_that_follows(image, *this, frame);
   find_extremes(frame);
+  Places all = grid_over(size_);
+  all.insert(all.end(), frame.begin(), frame.end());
+  const double of_one_colour = share_that_follows(image, *this, all);
   if (of_one_colour + kWorthASurface > 1.0) return;
 
   Background surface = *this;
   surface.plain_ = false;
   surface.fit(image, frame);
   for (int round = 0; round < kRounds; ++round) surface.fit(image, best_of(image, surface, frame, kTrusted));
-  if (share_that_follows(image, surface, frame) < of_one_colour + kWorthASurface) return;
-  const Places grid = grid_over(size_);
   for (int round = 0; round < kRounds; ++round) {
-    Places following = that_follow(image, surface, frame);
-    const Places inside = that_follow(image, surface, grid);
-    following.insert(following.end(), inside.begin(), inside.end());
+    const Places following = that_follow(image, surface, all);
+    if (following.size() < kTerms) return;
     surface.fit(image, following);
   }
+  if (share_that_follows(image, surface, frame) < kTrusted * share_that_follows(image, *this, frame))
+    return;  // it has grown into the pieces
+  if (share_that_follows(image, surface, all) < of_one_colour + kWorthASurface) return;
   surface.find_extremes(frame);
   *this = surface;
 }

@@ -10,8 +10,8 @@ namespace rejoin::outline::detail {
 /// A background of one colour, or of one that changes slowly over the picture, as under a lamp that stands aside.
 class Background {
  public:
-  /// The colour that the frame (the outermost pixels) has most.  Where more of the frame follows a quadratic surface of the
-  /// place than has that colour, the surface, fitted to all of the picture that follows it.
+  /// The colour that the frame (the outermost pixels) has most.  Where more of the picture follows a smooth surface over
+  /// the place than has that colour, the surface, fitted to all that follows it.
   /// \param image  CV_32FC3, 0..1
   explicit Background(const cv::Mat& image);
 
@@ -27,7 +27,7 @@ class Background {
   double darkest() const { return darkest_; }
 
  private:
-  static constexpr std::size_t kTerms = 6;  // 1, x, y, x x, x y, y y
+  static constexpr std::size_t kTerms = 7;  // 1, x, y, x x, x y, y y, (x x + y y)^2 as a lens darkens
   using Terms = std::array<float, kTerms>;
 
   Terms terms(int x, int y) const;

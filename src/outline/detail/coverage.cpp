@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "outline/detail/background.hpp"
+#include "outline/detail/foreground.hpp"
 
 namespace rejoin::outline::detail {
 namespace {
@@ -20,8 +21,18 @@ constexpr double kStaircaseBlur = 0.7;
 constexpr double kLeastContrast = 0.04;
 /// The background is plain if no more than this share of the frame is a piece or something else.
 constexpr double kMostOfFrame = 0.6;
-/// Light weaker than this share of the brightest is not made up for further.
-constexpr float kLeastLight = 0.1F;
+
+// Borders lie in the outermost pixels of the foreground: where the colour is half-way from the background's to that of the piece
+// beside it, which is a mean over some pixels farther inside.
+constexpr float kBorderBand = 6.0F;
+/// The foreground reaches less than this beyond the border, where the share of the contrast is,
+constexpr float kBeyond = 2.0F;
+/// if it is a border, more than this at that depth.
+constexpr float kLeastShare = 0.4F;
+constexpr int kInside = 5;
+constexpr int kBeside = 15;
+/// Print narrower than this does not end a piece, pixels.
+constexpr int kStroke = 9;
 
 struct Classes {
   double threshold = 0.0;
@@ -62,25 +73,45 @@ Classes otsu(const cv::Mat& values, double top) {
   return best;
 }
 
-/// How far each pixel's colour is from the background's, as it would be were all of the picture lit as its brightest frame.
-cv::Mat distance_from(const Background& background, const cv::Mat& image) {
-  const cv::Vec3f brightest = background.brightest();
-  cv::Mat distance(image.size(), CV_32F);
-  for (int y = 0; y < image.rows; ++y) {
-    for (int x = 0; x < image.cols; ++x) {
-      const cv::Vec3f behind = background.colour(x, y);
-      const auto& pixel = image.at<cv::Vec3f>(y, x);
-      float sum = 0.0F;
-      for (int c = 0; c < 3; ++c) {
-        const float lit =
-            background.plain() ? 1.0F : brightest[c] / std::max(behind[c], kLeastLight * brightest[c]);
-        const float d = (pixel[c] - behind[c]) * lit;
-        sum += d * d;
-      }
-      distance.at<float>(y, x) = std::sqrt(sum);
-    }
-  }
-  return distance;
+cv::Mat square(int side) {
+  return cv::getStructuringElement(cv::MORPH_RECT, {side, side});
+}
+
+/// Distance that the piece beside a pixel has: the geometric mean, as print is several times nearer to the background than its
+/// piece, or farther.
+cv::Mat contrast_beside(const cv::Mat& distance, const cv::Mat& mask, double least) {
+  cv::Mat inside;
+  cv::erode(mask, inside, square(kInside));
+  cv::Mat weight;
+  inside.convertTo(weight, CV_32F, 1.0 / 255.0);
+  cv::Mat sum;
+  cv::log(cv::max(distance, least), sum);
+  cv::multiply(sum, weight, sum);
+  cv::boxFilter(sum, sum, CV_32F, {kBeside, kBeside}, {-1, -1}, false);
+  cv::boxFilter(weight, weight, CV_32F, {kBeside, kBeside}, {-1, -1}, false);
+  cv::Mat contrast;
+  cv::dilate(distance, contrast, square(kInside));  // of what is too narrow to have an inside
+  cv::divide(sum, weight, sum);
+  cv::exp(sum, sum);
+  sum.copyTo(contrast, weight > 0.5F);
+  return cv::max(contrast, least);
+}
+
+/// The border at half the contrast, print at the border taken for piece.
+cv::Mat field_of(const cv::Mat& distance, const cv::Mat& mask) {
+  cv::Mat share;
+  cv::divide(distance, contrast_beside(distance, mask, kLeastContrast), share);
+  share = cv::min(share, 1.0);
+  cv::Mat field = share.clone();
+  cv::Mat scratch;
+  cv::morphologyEx(share, scratch, cv::MORPH_CLOSE, square(kStroke));
+  cv::Mat depth;
+  cv::distanceTransform(mask, depth, cv::DIST_L2, cv::DIST_MASK_3);
+  scratch.copyTo(field, (depth > kBeyond) & (share < kLeastShare));
+  field.setTo(1.0, depth > kBorderBand);
+  cv::dilate(mask, scratch, square(kInside));
+  field.setTo(0.0, ~scratch);
+  return field;
 }
 
 double share_of_frame_above(const cv::Mat& field, double level) {
@@ -110,14 +141,13 @@ Coverage coverage_from_background(const cv::Mat& image, const std::string& path)
     throw InputError(path, "the background is not plain",
                      "leave plain background all around the pieces, or cut them out (alpha)");
   }
-  Coverage result;
+  const cv::Mat mask = foreground(background, image, classes.high_mean, classes.threshold);
+  Coverage result{field_of(distance, mask), distance, {}};
   if (!background.plain()) {
     result.notes.push_back(fmt::format(
         "the background's light changes from 100 to {:.0f} % over the picture, which is evened out",
         100.0 * background.darkest()));
   }
-  distance.convertTo(result.field, CV_32F, 0.5 / classes.threshold);
-  result.field = cv::min(result.field, 1.0);
   return result;
 }
 
@@ -147,7 +177,7 @@ Coverage coverage(const cv::Mat& image, const std::string& path) {
   // A padded blur, so that a piece at the picture's border is not drawn inwards.
   if (is_binary(alpha))
     cv::GaussianBlur(alpha, alpha, cv::Size(), kStaircaseBlur, kStaircaseBlur, cv::BORDER_REPLICATE);
-  return {alpha, {}};
+  return {alpha, alpha, {}};
 }
 
 }  // namespace rejoin::outline::detail
