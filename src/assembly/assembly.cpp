@@ -17,6 +17,7 @@ namespace rejoin::assembly {
 namespace {
 
 constexpr double kFound = 0.006;   // contact without a candidate: least share of the smaller piece's surface
+constexpr double kMet = 0.0005;    // of a pair that must join, the same
 constexpr double kSpacing = 0.15;  // between groups, share of the larger one's size
 
 std::vector<Piece> make_pieces(const std::vector<match::Fragment>& fragments) {
@@ -74,8 +75,8 @@ class Assembler {
         grower_(pieces_, links_, options_) {}
 
   Result run(const Context& context) {
-    growth_ = best_growth(grower_, options_, context);
     Result result;
+    grow(result, context);
     result.placements.resize(pieces_.size());
     number_groups(result);
     context.report("align", 0.5);
@@ -99,6 +100,56 @@ class Assembler {
   bool is_pinned(std::size_t piece) const {
     const auto& pinned = options_.constraints.pinned;
     return std::any_of(pinned.begin(), pinned.end(), [&](const auto& p) { return p.first == piece; });
+  }
+
+  /// Grows without the pairs that must join, as most of them join anyhow, and once more with those that do not.  A pair's best
+  /// candidate may be false: put first, it would take true joins with it.
+  void grow(Result& result, const Context& context) {
+    growth_ = best_growth(grower_, options_, context);
+    std::vector<std::pair<std::size_t, std::size_t>> unmet;
+    for (bool more = true; more && !context.cancelled();) {
+      more = false;
+      for (const auto& pair : options_.constraints.must_join) {
+        if (std::find(unmet.begin(), unmet.end(), pair) != unmet.end() || joins(pair.first, pair.second))
+          continue;
+        unmet.push_back(pair);
+        more = true;
+      }
+      if (!more) return;
+      const Growth before = growth_;
+      grower_.want(unmet);
+      growth_ = best_growth(grower_, options_, context);
+      tell_given_up(before, result);
+    }
+  }
+
+  /// Whether two pieces touch where they lie.
+  bool joins(std::size_t a, std::size_t b) const {
+    if (growth_.group[a] != growth_.group[b]) return false;
+    Growth settled = growth_;
+    std::vector<std::size_t> members;
+    for (std::size_t k = 0; k < pieces_.size(); ++k)
+      if (settled.group[k] == settled.group[a]) members.push_back(k);
+    grower_.settle(settled, members);
+    const Rigid b_to_a = inverse(settled.poses[a]) * settled.poses[b];
+    return touch(pieces_[a], pieces_[b], b_to_a).area > kMet * smaller_area(a, b);
+  }
+
+  /// Sure joins that had to go for pairs that must join.
+  void tell_given_up(const Growth& before, Result& result) const {
+    const std::vector<std::size_t> lost_before = grower_.unsatisfied(before);
+    for (const std::size_t link : grower_.unsatisfied(growth_)) {
+      if (std::find(lost_before.begin(), lost_before.end(), link) != lost_before.end()) continue;
+      result.warnings.push_back(
+          fmt::format("{{{}}} and {{{}}} (score {:.3f}) join no more, for the sake of pairs that must",
+                      links_[link].a, links_[link].b, links_[link].score));
+    }
+  }
+
+  bool must_join(std::size_t a, std::size_t b) const {
+    return std::ranges::any_of(options_.constraints.must_join, [&](const auto& pair) {
+      return std::minmax(pair.first, pair.second) == std::minmax(a, b);
+    });
   }
 
   void number_groups(Result& result) {
@@ -139,7 +190,8 @@ class Assembler {
         if (is_unwanted(a, b)) continue;
         const Touch contact = touch(pieces_[a], pieces_[b], relative(a, b));
         const double share = contact.area / smaller_area(a, b);
-        if (share < (matched ? kContact : kFound) && !(matched && used.count(link) != 0)) continue;
+        const double least = must_join(a, b) ? kMet : matched ? kContact : kFound;
+        if (share < least && !(matched && used.count(link) != 0)) continue;
         const double score =
             matched
                 ? links_[link].score

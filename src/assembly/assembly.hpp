@@ -23,7 +23,7 @@ struct Link {
 /// What the user knows.
 struct Constraints {
   std::vector<std::pair<std::size_t, std::size_t>>
-      must_join;  ///< join at their best pose that fits, however low its score
+      must_join;  ///< if they do not anyhow, they join at their best pose that fits, however low its score
   std::vector<std::pair<std::size_t, std::size_t>> must_not_join;  ///< never touch
   std::vector<std::pair<std::size_t, Rigid>> pinned;  ///< file coordinates -> common frame; all in one group
 };

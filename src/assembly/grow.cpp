@@ -27,7 +27,7 @@ std::pair<std::size_t, std::size_t> key_of(std::size_t a, std::size_t b) {
 
 Grower::Grower(const std::vector<Piece>& pieces, const std::vector<Link>& links, const Options& options)
     : pieces_(pieces), links_(links), options_(options) {
-  for (const auto& [a, b] : options.constraints.must_join) wanted_.push_back(key_of(a, b));
+  want(options.constraints.must_join);  // links that may be wanted are kept, however unlikely
   for (const auto& [a, b] : options.constraints.must_not_join) unwanted_.push_back(key_of(a, b));
   for (std::size_t k = 0; k < links.size(); ++k) {
     odds_.push_back(log_odds(links[k].score));
@@ -38,6 +38,12 @@ Grower::Grower(const std::vector<Piece>& pieces, const std::vector<Link>& links,
     std::stable_sort(list.begin(), list.end(),
                      [&](std::size_t x, std::size_t y) { return odds_[x] > odds_[y]; });
   }
+  want({});
+}
+
+void Grower::want(const std::vector<std::pair<std::size_t, std::size_t>>& pairs) {
+  wanted_.clear();
+  for (const auto& [a, b] : pairs) wanted_.push_back(key_of(a, b));
 }
 
 bool Grower::must(const std::vector<Key>& pairs, std::size_t link) const {

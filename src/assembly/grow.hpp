@@ -41,7 +41,10 @@ class Grower {
   /// All must outlive the object.
   Grower(const std::vector<Piece>& pieces, const std::vector<Link>& links, const Options& options);
 
-  /// \param first  links that go before all others, if they fit
+  /// Pairs whose links go before all others from now on, best first, if they fit; none before.
+  void want(const std::vector<std::pair<std::size_t, std::size_t>>& pairs);
+
+  /// \param first  links that go before all others but those of wanted pairs, if they fit
   Growth grow(const std::set<std::size_t>& first, const Context& context);
 
   /// Strong links that the growth leaves unsatisfied: those of two groups, or of one group with another pose.

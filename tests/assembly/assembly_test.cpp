@@ -394,6 +394,25 @@ TEST(Constraints, PairsThatMustJoinDoSoHoweverLowTheScore) {
   EXPECT_TRUE(result.warnings.empty());
 }
 
+// The two pieces that touch least, whose only candidate is false: put first, it would break the ball apart.
+TEST(Constraints, PairsThatMustJoinAndDoAnyhowTakeNoOtherPose) {
+  const auto least = std::min_element(ball().contacts.begin(), ball().contacts.end(),
+                                      [](const auto& x, const auto& y) { return x.area < y.area; });
+  std::vector<Link> links = ball().all_true(0.999);
+  for (Link& link : links) {
+    if (std::minmax(link.a, link.b) == std::minmax(least->a, least->b))
+      link = ball().false_link(link.a, link.b, 0.01, 10.0, 1.5);
+  }
+  Options options;
+  options.constraints.must_join = {{least->b, least->a}};
+  const Result result = run(ball(), links, options);
+  EXPECT_LT(ball().worst_turn(result), 0.5);
+  EXPECT_TRUE(result.warnings.empty());
+  EXPECT_TRUE(std::any_of(result.joins.begin(), result.joins.end(), [&](const Join& join) {
+    return std::minmax(join.a, join.b) == std::minmax(least->a, least->b);
+  }));
+}
+
 TEST(Constraints, AWishThatCannotBeKeptIsSaid) {
   const Corner corner = corner_of(ball());
   Options options;
