@@ -234,13 +234,12 @@ Piece scanned(mesh::Mesh piece, double noise, double reach, Random& random) {
   mesh::compute_normals(piece);
   Rigid away{random_rotation(random), {}};
   for (int k = 0; k < 3; ++k) away.translation[k] = random.uniform(-reach, reach);
-  const glm::dvec3 origin = away(piece.origin);
+  piece.origin = away(piece.origin);
   for (std::size_t v = 0; v < piece.vertices.size(); ++v) {
     const glm::dvec3 shifted =
         glm::dvec3(piece.vertices[v]) + noise * random.normal() * glm::dvec3(piece.normals[v]);
-    piece.vertices[v] = glm::vec3(origin + away.rotation * shifted);
+    piece.vertices[v] = glm::vec3(away.rotation * shifted);
   }
-  piece.origin = glm::dvec3(0.0);
   piece.normals.clear();
   return {std::move(piece), inverse(away)};
 }

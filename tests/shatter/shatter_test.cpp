@@ -84,6 +84,19 @@ TEST(Shatter, TruthPutsEveryPieceBackIntoTheBall) {
   }
 }
 
+TEST(Shatter, PiecesOfAnObjectFarFromTheOriginKeepTheirShape) {
+  mesh::Mesh ball = mesh::test::icosphere(static_cast<float>(kRadius), 4);
+  ball.origin = {4.5e5, -6.1e6, 120.0};
+  const Shattered far = shatter("ball", ball, coarse(4), Context());
+  EXPECT_NEAR(volume_of(far) / kBallVolume, 1.0, 0.04);
+  for (const Piece& piece : far.pieces) {
+    for (const glm::vec3& vertex : piece.scan.vertices) {
+      const glm::dvec3 back = piece.to_world(piece.scan.origin + glm::dvec3(vertex));
+      EXPECT_LT(glm::distance(back, ball.origin), 1.005 * kRadius);
+    }
+  }
+}
+
 TEST(Shatter, APlaneCutHasItsAreaAndARoughOneMore) {
   Options plane = coarse(2);
   plane.roughness = 0.0;
