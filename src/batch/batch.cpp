@@ -151,7 +151,10 @@ class Work {
     std::vector<store::Fragment> wanted;
     wanted.reserve(needed.size());
     for (const std::size_t k : needed) wanted.push_back(fragments_.at(names_[k]));
-    shelf_.hold(wanted, context_, [this](const store::Fragment& fragment) { take(fragment); });
+    shelf_.hold(wanted, context_, [this](const store::Fragment& fragment, const auto& warnings) {
+      take(fragment);
+      for (const std::string& warning : warnings) listener_.on_warning(warning, progress_);
+    });
     warn_of_sizes();
     if (progress_.done == done_before_) pace_.start();
     run_side_by_side(pending.size(), [&](std::size_t k) {

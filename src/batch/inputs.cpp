@@ -23,6 +23,8 @@ constexpr std::array<const char*, 7> kExtensions = {".ply", ".obj", ".stl", ".of
 bool is_scan(const fs::directory_entry& entry) {
   std::error_code ignored;
   if (entry.is_directory(ignored)) return false;
+  if (entry.path().filename().string().starts_with('.'))
+    return false;  // hidden, as macOS leaves one beside every file
   std::string extension = entry.path().extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });

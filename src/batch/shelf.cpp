@@ -103,13 +103,17 @@ match::Fragment load_prepared(const store::Fragment& fragment, const fs::path& c
                               const Context& context) {
   const fs::path kept = kept_file(fragment, cache);
   std::optional<mesh::Mesh> surface = kept_surface(fragment, cache);
+  std::vector<std::string> warnings;
   if (!surface) {
-    const mesh::Mesh scan = mesh::load(fragment.path).mesh;
-    require_body(scan, fragment.path);
-    keep(kept, match::surface_of(fragment.path, scan));
+    mesh::Loaded loaded = mesh::load(fragment.path);
+    warnings = std::move(loaded.warnings);
+    require_body(loaded.mesh, fragment.path);
+    keep(kept, match::surface_of(fragment.path, loaded.mesh));
     surface = mesh::load(kept).mesh;
   }
-  return match::prepare(fragment.path, std::move(*surface), context);
+  match::Fragment prepared = match::prepare(fragment.path, std::move(*surface), context);
+  prepared.warnings = std::move(warnings);
+  return prepared;
 }
 
 void Shelf::hold(const std::vector<store::Fragment>& wanted, const Context& context, const Told& told) {
@@ -130,8 +134,10 @@ void Shelf::hold(const std::vector<store::Fragment>& wanted, const Context& cont
     const Context alone({}, context);
     Outcome outcome = prepare_one(missing[k], cache_, alone);
     const std::lock_guard lock(guard);
+    const std::vector<std::string> warnings =
+        outcome.prepared ? outcome.prepared->warnings : std::vector<std::string>{};
     if (outcome.prepared) held_.emplace(outcome.fragment.name, std::move(outcome.prepared));
-    told(outcome.fragment);
+    told(outcome.fragment, warnings);
   });
 }
 

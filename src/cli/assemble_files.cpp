@@ -14,6 +14,9 @@
 namespace rejoin::cli {
 namespace {
 
+/// Bytes of a fragment's name in a file's: file systems take 255, and a file on its way has a few more.
+constexpr std::size_t kLongestName = 200;
+
 using nlohmann::ordered_json;
 
 /// Four rows of four numbers, as CloudCompare and MeshLab read them.
@@ -149,6 +152,15 @@ std::string meshlab_project(const AssembleInput& input, const assembly::Result& 
   return text + " </MeshGroup>\n <RasterGroup/>\n</MeshLabProject>\n";
 }
 
+/// The fragment's name, or what a file's name has room for of it and a number.
+std::string matrix_name(const std::string& name, std::size_t number) {
+  if (name.size() <= kLongestName) return name + ".txt";
+  std::size_t end = kLongestName;
+  while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0) == 0x80)
+    --end;  // no half of a UTF-8 letter
+  return fmt::format("{}~{}.txt", name.substr(0, end), number);
+}
+
 std::vector<std::filesystem::path> write_assembly(const std::filesystem::path& folder,
                                                   const AssembleInput& input,
                                                   const assembly::Result& result) {
@@ -161,7 +173,7 @@ std::vector<std::filesystem::path> write_assembly(const std::filesystem::path& f
     const assembly::Placement& placement = result.placements[k];
     if (placement.group < 0) continue;
     parts.push_back({input.names[k], &input.fragments[k].surface, placement.pose});
-    files.push_back(matrices / (input.names[k] + ".txt"));
+    files.push_back(matrices / matrix_name(input.names[k], k));
     write_file(files.back(), matrix_text(placement.pose));
   }
   files.push_back(folder / "assembled.mlp");

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kLeast = 4;  // faces or points; fewer enclose nothing
 
-mesh::Mesh load_scan(const std::string& path, Console& console, mesh::Weld weld = mesh::Weld::Places) {
+mesh::Loaded load_scan(const std::string& path, Console& console, mesh::Weld weld = mesh::Weld::Places) {
   mesh::Loaded loaded = mesh::load(path, weld);
   for (const std::string& warning : loaded.warnings) console.warning(warning);
   const bool cloud = loaded.mesh.is_cloud();
@@ -25,16 +25,17 @@ mesh::Mesh load_scan(const std::string& path, Console& console, mesh::Weld weld 
     throw InputError(path, fmt::format("has no more than {} {}", count, cloud ? "points" : "faces"),
                      "give the scan of a whole fragment");
   }
-  return std::move(loaded.mesh);
+  return loaded;
 }
 
 match::Fragment read_and_prepare(const std::string& path, Console& console, const Context& context) {
   const NothingToSave guard;
   std::vector<StageTime> stages;
   Stopwatch clock(stages);
-  mesh::Mesh scan = load_scan(path, console);
+  mesh::Loaded scan = load_scan(path, console);
   clock.lap("load");
-  match::Fragment fragment = match::prepare(path, std::move(scan), context);
+  match::Fragment fragment = match::prepare(path, std::move(scan.mesh), context);
+  fragment.warnings = std::move(scan.warnings);
   fragment.stages.insert(fragment.stages.begin(), stages.begin(), stages.end());
   return fragment;
 }
@@ -55,7 +56,7 @@ void use_painted_facets(const std::vector<std::string>& files, const std::vector
                         Console& console) {
   std::map<const match::Fragment*, std::string> painted_by;
   for (const std::string& file : files) {
-    const mesh::Mesh painted = load_scan(file, console, mesh::Weld::PlacesAndColours);
+    const mesh::Mesh painted = load_scan(file, console, mesh::Weld::PlacesAndColours).mesh;
     if (painted.is_cloud() || painted.colours.empty()) {
       throw InputError(file, painted.is_cloud() ? "has no faces" : "has no colours",
                        "paint the file that rejoin facets SCAN --ply writes");

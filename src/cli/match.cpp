@@ -38,7 +38,7 @@ void require_facets(const char* option, const std::vector<int>& numbers, const m
 std::string pose_text(const Rigid& pose) {
   std::string text = "pose (B's coordinates to A's):\n";
   for (int row = 0; row < 3; ++row) {
-    text += fmt::format("  {:12.8f} {:12.8f} {:12.8f} {:14.6g}\n", pose.rotation[0][row],
+    text += fmt::format("  {:12.8f} {:12.8f} {:12.8f} {:16.10g}\n", pose.rotation[0][row],
                         pose.rotation[1][row], pose.rotation[2][row], pose.translation[row]);
   }
   return text;
@@ -118,7 +118,10 @@ class MatchCommand final : public Command {
     result.stages.insert(result.stages.begin(), stages.begin(), stages.end());
     console.end_progress();
     for (const std::string& warning : result.warnings) console.warning(warning);
-    result.warnings.insert(result.warnings.begin(), doubts.begin(), doubts.end());
+    std::vector<std::string> told = a.warnings;
+    told.insert(told.end(), b.warnings.begin(), b.warnings.end());
+    told.insert(told.end(), doubts.begin(), doubts.end());
+    result.warnings.insert(result.warnings.begin(), told.begin(), told.end());
     if (result.cancelled) console.warning("interrupted; what follows is the best so far");
     tell_times(console, a, b, result);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;

@@ -41,7 +41,9 @@ bool is_device(const fs::path& path) {
 
 [[noreturn]] void refuse(const fs::path& path, int reason) {
   throw IoError(path.string(), std::string("cannot be written (") + std::strerror(reason) + ")",
-                "check the folder, its permissions and its space, or choose another place");
+                reason == ENAMETOOLONG
+                    ? "choose a shorter name"
+                    : "check the folder, its permissions and its space, or choose another place");
 }
 
 }  // namespace

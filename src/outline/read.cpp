@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <regex>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -63,11 +64,31 @@ std::vector<Outline> read_outlines(const std::string& path, Kind kind, std::vect
   return outlines;
 }
 
-bool same(const Outline& a, const Outline& b) {
-  return a.points == b.points && a.holes == b.holes && a.colour == b.colour;
+/// Whether two pictures' pieces lie in the same pixels and have the same colours, but for what saving them in another format changes.
+bool same_pixels(const Outline& a, const Outline& b) {
+  constexpr std::size_t kPlaces = 64;
+  constexpr double kApart = 0.75;   // pixels, on average; points of a contour are up to one apart
+  constexpr double kShade = 0.015;  // of the colour, on average
+  const std::size_t count = a.points.size();
+  if (a.colour.size() != count || b.colour.size() != b.points.size() || a.holes.size() != b.holes.size())
+    return false;
+  if (std::max(count, b.points.size()) - std::min(count, b.points.size()) > count / 50) return false;
+  double apart = 0.0;
+  double shade = 0.0;
+  for (std::size_t k = 0; k < kPlaces; ++k) {
+    const std::size_t i = k * count / kPlaces;
+    const std::size_t j = k * b.points.size() / kPlaces;
+    apart += glm::distance(a.points[i], b.points[j]) / kPlaces;
+    shade += glm::distance(a.colour[i], b.colour[j]) / kPlaces;
+  }
+  return apart < kApart && shade < kShade;
 }
 
-/// Leaves out what repeats another piece: no two scans agree in every coordinate.  The shortest name stays, as copies are
+bool same(const Outline& a, const Outline& b) {
+  return (a.points == b.points && a.holes == b.holes && a.colour == b.colour) || same_pixels(a, b);
+}
+
+/// Leaves out what repeats another piece: no two scans agree in every place.  The shortest name stays, as copies are
 /// mostly called "copy of" or "(2)".
 void take_out_repeats(PieceSet& set) {
   std::vector<Piece> kept;
@@ -116,14 +137,25 @@ PieceSet read_pieces(const std::string& path, const ExtractOptions& options) {
   return set;
 }
 
+/// Whether a folder's file is none of the user's pieces: hidden (as macOS leaves them beside others), or a picture of results.
+bool is_beside_the_pieces(const std::string& name, std::vector<std::string>& results) {
+  if (name.starts_with('.')) return true;
+  static const std::regex kResult(R"((object|joins)_[0-9]+\.png|similarity\.png|match\.png|joined\.png)");
+  if (!std::regex_match(name, kResult)) return false;
+  results.push_back(name);
+  return true;
+}
+
 PieceSet read_folder(const std::string& folder, const ExtractOptions& options) {
   std::error_code problem;
   std::vector<fs::path> files;
+  std::vector<std::string> results;
   for (auto entry = fs::directory_iterator(folder, problem); !problem && entry != fs::directory_iterator();
        entry.increment(problem)) {
     const Kind kind = kind_of(entry->path());
+    if (kind == Kind::Unknown || is_beside_the_pieces(entry->path().filename().string(), results)) continue;
     const bool other_json = kind == Kind::GeoJson && entry->path().extension() == ".json";
-    if (kind != Kind::Unknown && !other_json) files.push_back(entry->path());
+    if (!other_json) files.push_back(entry->path());
   }
   if (problem)
     throw IoError(folder, "cannot be read (" + problem.message() + ")",
@@ -134,6 +166,12 @@ PieceSet read_folder(const std::string& folder, const ExtractOptions& options) {
   }
   std::sort(files.begin(), files.end());
   PieceSet all;
+  if (!results.empty()) {
+    all.notes.push_back(fmt::format("{}: {} that rejoin writes as a result ({}) {} no piece and left out",
+                                    folder, counted(results.size(), "picture"),
+                                    *std::min_element(results.begin(), results.end()),
+                                    results.size() == 1 ? "is" : "are"));
+  }
   for (const fs::path& file : files) {
     try {
       PieceSet set = read_pieces(file.string(), options);

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
 
@@ -152,6 +154,41 @@ TEST_F(Read, CsvLosesNoFirstLineThatIsNoPoint) {
 TEST_F(Read, CsvWhoseCommasMayMeanTwoThingsIsRefusedWithTheLine) {
   expect_refusal("a.csv", "0,5;0,5\n1,2,3;4\n", "line 2 has commas that may be decimal ones");
   expect_refusal("b.csv", "0;0\n1, 2;3\n", "line 2 has commas that may be decimal ones");
+}
+
+/// A blot with a bump that shows where it is turned to; `bump` in degrees.
+cv::Mat blot(double bump) {
+  cv::Mat image(200, 220, CV_8UC3, cv::Scalar(240, 240, 240));
+  cv::circle(image, {110, 100}, 60, cv::Scalar(40, 60, 120), cv::FILLED, cv::LINE_AA);
+  const cv::Point at(110 + static_cast<int>(60 * std::cos(bump * M_PI / 180)),
+                     100 + static_cast<int>(60 * std::sin(bump * M_PI / 180)));
+  cv::circle(image, at, 15, cv::Scalar(40, 60, 120), cv::FILLED, cv::LINE_AA);
+  return image;
+}
+
+TEST_F(Read, OnePictureInSeveralFormatsIsOnePiece) {
+  cv::Mat deep;
+  blot(30).convertTo(deep, CV_16U, 257);
+  cv::imwrite((folder_ / "a.png").string(), blot(30));
+  cv::imwrite((folder_ / "a copy.tif").string(), deep);
+  cv::imwrite((folder_ / "a copy.jpg").string(), blot(30));
+  cv::imwrite((folder_ / "b.png").string(), blot(60));
+  const PieceSet set = read_folder(folder_.string());
+  ASSERT_EQ(set.pieces.size(), 2U);
+  EXPECT_EQ(set.pieces[0].name, "a.png");
+  EXPECT_EQ(set.pieces[1].name, "b.png");
+  EXPECT_EQ(set.repeated.size(), 2U);
+}
+
+TEST_F(Read, ResultsAndHiddenFilesOfAFolderAreNoPieces) {
+  for (const char* name : {"a.png", "object_12.png", "similarity.png"})
+    cv::imwrite((folder_ / name).string(), blot(30));
+  write("._a.png", "what macOS keeps beside a.png");
+  const PieceSet set = read_folder(folder_.string());
+  ASSERT_EQ(set.pieces.size(), 1U);
+  EXPECT_TRUE(set.unusable.empty());
+  ASSERT_EQ(set.notes.size(), 1U);
+  EXPECT_NE(set.notes[0].find("2 pictures that rejoin writes"), std::string::npos) << set.notes[0];
 }
 
 TEST_F(Read, FolderIsReadInTheOrderOfNames) {
