@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "core/parallel.hpp"
+#include "outline/detail/contour.hpp"
 #include "outline/emd.hpp"
 #include "outline/layout.hpp"
+#include "outline/multiscale.hpp"
+#include "outline/scan.hpp"
 #include "planted.hpp"
 
 namespace rejoin::outline {
@@ -114,6 +117,32 @@ TEST(Assembly, GivesAJoinTheScoreOfItsPairAndAPieceTheChanceThatOneIsTrue) {
   ASSERT_EQ(assembly.joins.size(), 1U);
   EXPECT_DOUBLE_EQ(assembly.joins[0].score, 0.8);
   for (const Placement& placed : assembly.placements) EXPECT_NEAR(placed.confidence, 0.8, 1e-12);
+}
+
+/// A strip cut with scissors, as a scanner sees it.
+Piece strip(double length, double angle_rad) {
+  const glm::dvec2 along(std::cos(angle_rad), std::sin(angle_rad));
+  const glm::dvec2 across(-along.y, along.x);
+  const glm::dvec2 corner = glm::dvec2(320.0, 320.0) - 0.5 * length * along - 120.0 * across;
+  const std::vector<glm::dvec2> border{corner, corner + length * along,
+                                       corner + length * along + 240.0 * across, corner + 240.0 * across};
+  std::vector<float> coverage = pixel_coverage(border, 640, 640);
+  Piece piece;
+  piece.name = "strip";
+  piece.outline.points = detail::contours(cv::Mat(640, 640, CV_32F, coverage.data()), 0.5F, 12)[0];
+  return piece;
+}
+
+// Borders of one slope have one staircase of pixels, which agrees very well and means nothing.
+TEST(Assembly, StraightStripsOfOneSlopeAreNotPutTogether) {
+  for (const double degrees : {3.0, 7.0, 12.0}) {
+    const double angle = degrees * M_PI / 180.0;
+    const std::vector<Piece> pieces{strip(450.0, angle), strip(400.0, angle + M_PI / 2), strip(480.0, angle)};
+    const auto matcher = make_multiscale();
+    matcher->prepare(pieces);
+    const Assembly made = assemble(pieces, *matcher, {}, Context());
+    EXPECT_EQ(made.unplaced.size(), 3U) << degrees;
+  }
 }
 
 TEST(Assembly, ASecondScanOfAPieceIsNotLaidOnTheFirst) {

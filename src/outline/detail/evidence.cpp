@@ -11,6 +11,9 @@ constexpr double kIndependent = 0.4;
 /// So near to the boundary's ends, in steps, the smoothed border is drawn to what lies beyond.
 constexpr double kBlurred = 1.5;
 constexpr double kLeastSamples = 5.0;
+/// A straight border turns by up to so much from sample to sample at the finest scale, as the pixels' raster has it, root mean square,
+/// radians, and by half of it at each coarser one.  Straight borders of one slope have one raster and agree very well by it.
+constexpr double kRaster = 0.03;
 
 /// Correlation of paired numbers, summed up one pair at a time.
 struct Sums {
@@ -39,6 +42,9 @@ struct Sums {
     const double squares = 0.5 * (aa + bb);
     return fourth > 0.0 ? std::min(count, 3.0 * squares * squares / fourth) : count;
   }
+
+  /// Root mean square of those that are smaller.
+  double least_size() const { return std::sqrt(std::min(aa, bb) / count); }
 
   double correlation() const {
     const double variance_a = aa - a * a / count;
@@ -79,7 +85,7 @@ double agreement_at(const ScaledBorder& a, const ScaledBorder& b, const std::vec
     const double on_b = sample_of(here_b, place_of(b.border, j));
     sums.add(turning_at(signal_a, i, limit), -turning_at(*here_b.signal, on_b, limit));
   }
-  if (sums.count < kLeastSamples) return 0.0;
+  if (sums.count < kLeastSamples || sums.least_size() < std::ldexp(kRaster, -static_cast<int>(k))) return 0.0;
   const double r = std::clamp(sums.correlation(), 0.0, 0.999);
   return -0.5 * kIndependent * sums.carrying() * std::log(1.0 - r * r);
 }
