@@ -112,7 +112,7 @@ match::Fragment load_prepared(const store::Fragment& fragment, const fs::path& c
     surface = mesh::load(kept).mesh;
   }
   match::Fragment prepared = match::prepare(fragment.path, std::move(*surface), context);
-  prepared.warnings = std::move(warnings);
+  prepared.warnings.insert(prepared.warnings.begin(), warnings.begin(), warnings.end());
   return prepared;
 }
 

@@ -35,7 +35,8 @@ match::Fragment read_and_prepare(const std::string& path, Console& console, cons
   mesh::Loaded scan = load_scan(path, console);
   clock.lap("load");
   match::Fragment fragment = match::prepare(path, std::move(scan.mesh), context);
-  fragment.warnings = std::move(scan.warnings);
+  for (const std::string& warning : fragment.warnings) console.warning(warning);
+  fragment.warnings.insert(fragment.warnings.begin(), scan.warnings.begin(), scan.warnings.end());
   fragment.stages.insert(fragment.stages.begin(), stages.begin(), stages.end());
   return fragment;
 }

@@ -60,8 +60,9 @@ struct Fragment {
       middle;  ///< view_centre() of `coarse`, where it is known: it takes time at every pair else
   std::vector<int>
       sample_of_face;  ///< mesh::sample_of_faces() of `coarse`; samples stay when facets are painted
-  std::vector<std::string> warnings;  ///< what was mended when its file was read, if it was
-  std::vector<StageTime> stages;      ///< surface (of a cloud), coarse, facets; load where a file was read
+  std::vector<std::string>
+      warnings;  ///< what was mended when its file was read, and what may keep joins from being found
+  std::vector<StageTime> stages;  ///< surface (of a cloud), coarse, facets; load where a file was read
 };
 
 /// Whether both are sherds, thin pieces with a wall thickness of their own.

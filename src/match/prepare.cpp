@@ -1,3 +1,6 @@
+#include <fmt/core.h>
+
+#include <cmath>
 #include <utility>
 
 #include "core/error.hpp"
@@ -10,6 +13,24 @@ namespace rejoin::match {
 namespace {
 
 constexpr std::size_t kCoarseFaces = 40000;
+/// Edges across a wall: with fewer, a break has no shape to be known by (of five bone pieces with 4.0 every join is found, with 2.9
+/// none).
+constexpr double kEdgesAcross = 3.5;
+
+/// Of equilateral triangles as large as the surface's are on average.
+double mean_edge(const mesh::Mesh& surface) {
+  const double area = mesh::surface_area(surface) / static_cast<double>(surface.faces.size());
+  return std::sqrt(4.0 / std::sqrt(3.0) * area);
+}
+
+void doubt_coarse_walls(Fragment& fragment) {
+  const double across = fragment.facets.wall_thickness / mean_edge(fragment.surface);
+  if (across <= 0.0 || across >= kEdgesAcross) return;
+  fragment.warnings.push_back(
+      fmt::format("{}: its mesh has {:.1f} edges across the wall ({:.3g} thick); joins are hardly found with "
+                  "fewer than {:.1f}: scan or export it more finely",
+                  fragment.path, across, fragment.facets.wall_thickness, kEdgesAcross));
+}
 
 }  // namespace
 
@@ -39,6 +60,7 @@ Fragment prepare(std::string path, mesh::Mesh scan, const Context& context) {
   fragment.noise = mesh::noise(fragment.surface);
   fragment.facets = mesh::segment(fragment.surface, fragment.diameter);
   fragment.sample_of_face = mesh::sample_of_faces(fragment.facets, fragment.coarse);
+  doubt_coarse_walls(fragment);
   clock.lap("facets");
   context.report("prepare " + fragment.path, 1.0);
   return fragment;

@@ -6,6 +6,8 @@
 
 #include "core/parallel.hpp"
 #include "core/random.hpp"
+#include "mesh/load.hpp"
+#include "mesh/surface.hpp"
 #include "prepared_pair.hpp"
 
 namespace rejoin::match {
@@ -25,6 +27,15 @@ TEST(Match, FindsThePlantedCut) {
     EXPECT_EQ(result.verdict, Verdict::Join) << "seed " << seed;
     EXPECT_GT(result.evaluations, 1000);
   }
+}
+
+TEST(Prepare, TellsOfAMeshTooCoarseForItsWall) {
+  const std::string path = std::string(REJOIN_SOURCE_DIR) + "/meshes/bowl/a.drc";
+  const mesh::Mesh scan = mesh::load(path).mesh;
+  EXPECT_TRUE(prepare("fine", scan, Context{}).warnings.empty());
+  const Fragment coarse = prepare("coarse", mesh::simplify(scan, 2000), Context{});
+  ASSERT_EQ(coarse.warnings.size(), 1U);
+  EXPECT_NE(coarse.warnings[0].find("coarse: its mesh has "), std::string::npos) << coarse.warnings[0];
 }
 
 TEST(Match, PlainBlockDoesNotJoin) {
