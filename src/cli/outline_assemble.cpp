@@ -13,6 +13,7 @@
 #include "core/words.hpp"
 #include "outline/assembly.hpp"
 #include "outline/assembly_pictures.hpp"
+#include "outline/pieces_picture.hpp"
 #include "report/similarity_picture.hpp"
 
 namespace rejoin::cli {
@@ -90,7 +91,10 @@ class OutlineAssembleCommand final : public Command {
  private:
   void write_pictures(const std::vector<outline::Piece>& pieces, const outline::Assembly& assembly,
                       Console& console) const {
-    std::vector<std::filesystem::path> files = outline::write_assembly_pictures(*out_, pieces, assembly);
+    std::vector<std::filesystem::path> files{std::filesystem::path(*out_) / "pieces.png"};
+    outline::write_pieces_picture(files[0], pieces);
+    for (auto& file : outline::write_assembly_pictures(*out_, pieces, assembly))
+      files.push_back(std::move(file));
     files.push_back(std::filesystem::path(*out_) / "similarity.png");
     report::write_similarity_picture(files.back(), pieces, assembly);
     for (const std::filesystem::path& file : files) console.result(fmt::format("wrote {}\n", file.string()));

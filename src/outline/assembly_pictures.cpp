@@ -1,23 +1,19 @@
 #include "outline/assembly_pictures.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "core/ascii.hpp"
-#include "core/files.hpp"
 #include "outline/contact.hpp"
-#include "outline/detail/image_file.hpp"
+#include "outline/detail/drawing.hpp"
 
 namespace rejoin::outline {
 namespace {
 
 constexpr int kShift = 8;  // binary places of polygon corners
 constexpr double kMargin = 8.0;
-constexpr std::size_t kMaxPixels = 120000000;
 
 /// A piece where it lies, with its number in the set.
 struct Placed {
@@ -35,13 +31,6 @@ struct View {
   glm::dvec2 operator()(const glm::dvec2& point) const { return (point - low) * scale + kMargin; }
 };
 
-bool is_picture(const Piece& piece) {
-  std::string kind = std::filesystem::path(piece.path).extension().string();
-  for (char& c : kind) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  constexpr std::array<const char*, 5> kKinds = {".png", ".jpg", ".jpeg", ".tif", ".tiff"};
-  return std::find(kKinds.begin(), kKinds.end(), kind) != kKinds.end();
-}
-
 View view_of(const std::vector<Placed>& members, const PictureOptions& options) {
   View view;
   glm::dvec2 high(-std::numeric_limits<double>::max());
@@ -54,7 +43,7 @@ View view_of(const std::vector<Placed>& members, const PictureOptions& options) 
   const glm::dvec2 extent = high - view.low;
   const double longest = std::max(extent.x, extent.y);
   const bool pictures = std::all_of(members.begin(), members.end(),
-                                    [](const Placed& placed) { return is_picture(*placed.piece); });
+                                    [](const Placed& placed) { return detail::is_picture(*placed.piece); });
   view.scale = pictures ? std::min(1.0, options.longest_side / longest) : options.drawn_side / longest;
   view.size = cv::Size(static_cast<int>(extent.x * view.scale + 2.0 * kMargin) + 1,
                        static_cast<int>(extent.y * view.scale + 2.0 * kMargin) + 1);
@@ -104,12 +93,8 @@ cv::Scalar colour_of(std::size_t piece) {
 }
 
 /// The piece's own colours within its region, blue, green, red.
-cv::Mat colours_of(const Piece& piece, const Planar& pose, const View& view, const cv::Rect& region) {
-  const cv::Mat source = detail::load_image(piece.path, kMaxPixels);
-  std::vector<cv::Mat> planes;
-  cv::split(source, planes);
-  cv::Mat colours;
-  cv::merge(std::vector<cv::Mat>(planes.begin(), planes.begin() + 3), colours);
+cv::Mat placed_colours(const Piece& piece, const Planar& pose, const View& view, const cv::Rect& region) {
+  const cv::Mat colours = detail::colours_of(piece);
   const glm::dmat3 m = matrix(pose);
   const glm::dvec2 shift = view(glm::dvec2(m[2])) - glm::dvec2(region.x, region.y);
   const cv::Matx23d motion(view.scale * m[0][0], view.scale * m[1][0], shift.x, view.scale * m[0][1],
@@ -144,18 +129,13 @@ std::vector<std::uint8_t> png_of(const cv::Mat& image) {
   return bytes;
 }
 
-void write(const std::filesystem::path& path, const cv::Mat& image) {
-  const std::vector<std::uint8_t> bytes = png_of(image);
-  write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-}
-
 cv::Mat object_picture(const std::vector<Placed>& members, const View& view) {
   cv::Mat canvas(view.size, CV_8UC4, cv::Scalar(0, 0, 0, 0));
   for (const auto& [piece, pose, number] : members) {
     const cv::Rect region = region_of(*piece, pose, view);
     const cv::Mat mask = mask_of(*piece, pose, view, region);
-    const cv::Mat colours = is_picture(*piece) ? colours_of(*piece, pose, view, region)
-                                               : cv::Mat(region.size(), CV_8UC3, colour_of(number));
+    const cv::Mat colours = detail::is_picture(*piece) ? placed_colours(*piece, pose, view, region)
+                                                       : cv::Mat(region.size(), CV_8UC3, colour_of(number));
     lay(canvas(region), colours, mask);
   }
   return canvas;
@@ -176,20 +156,13 @@ void draw_boundary(cv::Mat& canvas, const Placed& a, const Placed& b, const View
   }
 }
 
-/// At most 32 letters that the font has, cut in the middle: names of pictures differ at their ends.
-std::string short_name(const std::string& full) {
-  constexpr std::size_t kMost = 32;
-  const std::string name = ascii(full);
-  return name.size() <= kMost ? name : name.substr(0, 14) + "..." + name.substr(name.size() - 15);
-}
-
 /// Which number is which piece, in columns of this height.
 cv::Mat legend(const std::vector<Placed>& members, int height) {
   constexpr int kRow = 18;
   constexpr double kSize = 0.45;
   const int rows = std::max(1, (height - kRow / 2) / kRow);
   const auto text_of = [](const Placed& placed) {
-    return std::to_string(placed.number) + "  " + short_name(placed.piece->name);
+    return std::to_string(placed.number) + "  " + detail::short_name(placed.piece->name);
   };
   int width = 0;
   for (const Placed& placed : members)
@@ -257,9 +230,9 @@ std::vector<std::filesystem::path> write_assembly_pictures(const std::filesystem
     const View view = view_of(objects[k], options);
     const std::string number = std::to_string(k + 1);
     files.push_back(folder / ("object_" + number + ".png"));
-    write(files.back(), object_picture(objects[k], view));
+    detail::write_png(files.back(), object_picture(objects[k], view));
     files.push_back(folder / ("joins_" + number + ".png"));
-    write(files.back(), joins_picture(objects[k], assembly.joins, view));
+    detail::write_png(files.back(), joins_picture(objects[k], assembly.joins, view));
   }
   return files;
 }

@@ -20,6 +20,9 @@ constexpr std::size_t kLeastPoints = 12;
 constexpr double kBorderBand = 0.25;
 /// How much of a piece's border may run along the picture's border before the piece counts as cut, pixels.
 constexpr double kMostOnBorder = 12.0;
+// A rectangle that takes more than this share of the picture's width and height is hardly a piece, and fills this share of its box.
+constexpr double kLeastBed = 0.85;
+constexpr double kRectangle = 0.97;
 /// Colours are taken this far inside, so that the background does not bleed in, pixels.
 constexpr double kColourDepth = 3.0;
 // A border is an edge where this share of what it rises by over the wide reach it rises by over the narrow one, in pixels to
@@ -140,6 +143,19 @@ void assign_holes(std::vector<Polygon>& holes, std::vector<Outline>& pieces) {
   }
 }
 
+/// Whether a piece is a rectangle that runs along the picture's border: mostly the page or the scanner's bed, within a dark frame.
+bool is_bed(const Polygon& polygon, const cv::Mat& image) {
+  glm::dvec2 low = polygon[0];
+  glm::dvec2 high = polygon[0];
+  for (const glm::dvec2& p : polygon) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  const glm::dvec2 share = (high - low) / glm::dvec2(image.cols, image.rows);
+  return std::min(share.x, share.y) > kLeastBed &&
+         signed_area(polygon) > kRectangle * (high.x - low.x) * (high.y - low.y);
+}
+
 /// Leaves out the pieces that the picture's border cuts, unless none is whole.
 void judge_cut_pieces(std::vector<Polygon>& outer, const cv::Mat& image, std::vector<std::string>& notes) {
   const auto cut = [&](const Polygon& polygon) { return length_on_border(polygon, image) > kMostOnBorder; };
@@ -171,6 +187,11 @@ Extraction extract(const std::string& path, const ExtractOptions& options) {
                   [&](const Polygon& polygon) { return is_blurred(polygon, coverage.distance); })) {
     result.notes.emplace_back(
         "the outline is blurred, so look whether it is the piece's or that of light on the background");
+  }
+  if (is_bed(loops.outer[0], image)) {
+    result.notes.emplace_back(
+        "the largest piece is a rectangle along the picture's border: if that is the page or the scanner's "
+        "bed, cut the frame around it off");
   }
   result.pieces.reserve(loops.outer.size());
   for (Polygon& polygon : loops.outer) {

@@ -140,7 +140,7 @@ PieceSet read_pieces(const std::string& path, const ExtractOptions& options) {
 /// Whether a folder's file is none of the user's pieces: hidden (as macOS leaves them beside others), or a picture of results.
 bool is_beside_the_pieces(const std::string& name, std::vector<std::string>& results) {
   if (name.starts_with('.')) return true;
-  static const std::regex kResult(R"((object|joins)_[0-9]+\.png|similarity\.png|match\.png|joined\.png)");
+  static const std::regex kResult(R"((object|joins)_[0-9]+\.png|similarity\.png|pieces\.png|match\.png|joined\.png)");
   if (!std::regex_match(name, kResult)) return false;
   results.push_back(name);
   return true;

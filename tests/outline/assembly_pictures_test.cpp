@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
+#include "outline/pieces_picture.hpp"
 
 namespace rejoin::outline {
 namespace {
@@ -43,6 +44,27 @@ Assembly side_by_side() {
   assembly.placements = {{Planar{}, 0, 0.9}, {Planar{M_PI, {99.0, 49.0}, false}, 0, 0.9}};
   assembly.joins = {{0, 1, 0.9, 30.0}};
   return assembly;
+}
+
+TEST_F(AssemblyPictures, SheetShowsEveryPieceWithItsOutlineOverIt) {
+  Piece plain = coloured("b.png", {0, 0, 0});
+  plain.path = "outlines.csv";
+  write_pieces_picture(folder_ / "pieces.png", {coloured("a.png", {200, 160, 60}), plain});
+  const cv::Mat sheet = cv::imread((folder_ / "pieces.png").string());
+  ASSERT_EQ(sheet.cols, 2 * sheet.rows);  // a cell for each
+  const int cell = sheet.rows;
+  EXPECT_EQ(sheet.at<cv::Vec3b>(cell / 2 - 11, cell / 2), cv::Vec3b(200, 160, 60));
+  for (int k = 0; k < 2; ++k) {
+    cv::Mat blue;
+    cv::Mat red;
+    cv::extractChannel(sheet(cv::Rect(k * cell, 0, cell, cell)), blue, 0);
+    cv::extractChannel(sheet(cv::Rect(k * cell, 0, cell, cell)), red, 2);
+    red = red - blue > 40;  // drawn between pixels, so with what lies below
+    // The border, 40 by 30, fills 0.86 of the cell's width but for its margin.
+    const cv::Rect box = cv::boundingRect(red);
+    EXPECT_NEAR(static_cast<double>(box.width) / box.height, 40.0 / 30.0, 0.05) << k;
+    EXPECT_GT(box.width, 0.7 * cell) << k;
+  }
 }
 
 TEST_F(AssemblyPictures, KeepTheColoursAndAreTransparentOutside) {

@@ -175,6 +175,17 @@ TEST(Extract, ShadowIsNoPartOfThePiece) {
   expect_disc(found.pieces[0], 1.0);
 }
 
+TEST(Extract, BedOfAScannerInADarkFrameIsToldAsARectangle) {
+  const Folder folder;
+  cv::Mat image(200, 300, CV_8UC3, cv::Scalar(20, 20, 20));
+  cv::rectangle(image, {8, 8}, {291, 191}, cv::Scalar(230, 230, 230), cv::FILLED);
+  cv::circle(image, {140, 90}, 50, cv::Scalar(60, 90, 140), cv::FILLED);
+  cv::imwrite(folder.file("bed.png"), image);
+  const Extraction found = extract(folder.file("bed.png"));
+  ASSERT_EQ(found.notes.size(), 1U);
+  EXPECT_NE(found.notes[0].find("scanner's bed"), std::string::npos) << found.notes[0];
+}
+
 TEST(Extract, OutlineOfAGlowIsToldAsBlurred) {
   const Folder folder;
   cv::Mat image(200, 200, CV_8UC3, cv::Scalar(60, 60, 60));

@@ -1,0 +1,25 @@
+/// What pictures of flat pieces have in common.
+#pragma once
+
+#include <filesystem>
+#include <opencv2/core/mat.hpp>
+#include <string>
+
+#include "outline/outline.hpp"
+
+namespace rejoin::outline::detail {
+
+/// Whether the piece was read from a picture, which can be read again.
+bool is_picture(const Piece& piece);
+
+/// The picture's colours as they were read, CV_32FC3, blue green red; transparent places have whatever lies under them.
+/// \throws IoError, InputError  it cannot be read again
+cv::Mat colours_of(const Piece& piece);
+
+/// At most 32 letters that the font has, cut in the middle: names of pictures differ at their ends.
+std::string short_name(const std::string& full);
+
+/// \throws IoError  it cannot be written
+void write_png(const std::filesystem::path& path, const cv::Mat& image);
+
+}  // namespace rejoin::outline::detail
