@@ -23,6 +23,9 @@ constexpr double kMostOnBorder = 12.0;
 // A rectangle that takes more than this share of the picture's width and height is hardly a piece, and fills this share of its box.
 constexpr double kLeastBed = 0.85;
 constexpr double kRectangle = 0.97;
+// More pieces than this of which the largest takes less than this share of the picture are hardly pieces.
+constexpr std::size_t kMany = 20;
+constexpr double kSmall = 0.01;
 /// Colours are taken this far inside, so that the background does not bleed in, pixels.
 constexpr double kColourDepth = 3.0;
 // A border is an edge where this share of what it rises by over the wide reach it rises by over the narrow one, in pixels to
@@ -187,6 +190,12 @@ Extraction extract(const std::string& path, const ExtractOptions& options) {
                   [&](const Polygon& polygon) { return is_blurred(polygon, coverage.distance); })) {
     result.notes.emplace_back(
         "the outline is blurred, so look whether it is the piece's or that of light on the background");
+  }
+  if (loops.outer.size() > kMany &&
+      signed_area(loops.outer[0]) < kSmall * static_cast<double>(image.total())) {
+    result.notes.push_back(fmt::format(
+        "{} pieces, all small: if these are letters or specks, the background is too like the piece",
+        loops.outer.size()));
   }
   if (is_bed(loops.outer[0], image)) {
     result.notes.emplace_back(

@@ -3,13 +3,16 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <filesystem>
+#include <optional>
 #include <regex>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/words.hpp"
+#include "outline/detail/image_file.hpp"
 #include "outline/detail/readers.hpp"
 #include "outline/polygon.hpp"
 
@@ -140,19 +143,51 @@ PieceSet read_pieces(const std::string& path, const ExtractOptions& options) {
 /// Whether a folder's file is none of the user's pieces: hidden (as macOS leaves them beside others), or a picture of results.
 bool is_beside_the_pieces(const std::string& name, std::vector<std::string>& results) {
   if (name.starts_with('.')) return true;
-  static const std::regex kResult(R"((object|joins)_[0-9]+\.png|similarity\.png|pieces\.png|match\.png|joined\.png)");
+  static const std::regex kResult(
+      R"((object|joins)_[0-9]+\.png|similarity\.png|pieces\.png|match\.png|joined\.png)");
   if (!std::regex_match(name, kResult)) return false;
   results.push_back(name);
   return true;
 }
 
+/// Whether a file is a picture of a kind that is not read.
+bool is_other_picture(const fs::path& path) {
+  std::string ending = path.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  constexpr std::array<const char*, 7> kKinds = {".webp", ".gif", ".bmp", ".heic", ".jp2", ".avif", ".pdf"};
+  return std::find(kKinds.begin(), kKinds.end(), ending) != kKinds.end();
+}
+
+/// What to say of pictures whose files tell different resolutions; what cameras write where they know none is passed over.
+void doubt_resolutions(const std::vector<fs::path>& files, std::vector<std::string>& notes) {
+  constexpr double kUnknown = 96.5;  // dots an inch, and below
+  constexpr double kSame = 1.02;
+  std::optional<std::pair<double, std::string>> least;
+  std::optional<std::pair<double, std::string>> most;
+  for (const fs::path& file : files) {
+    if (kind_of(file) != Kind::Picture) continue;
+    const auto header = detail::image_header(read_file(file));
+    if (!header || header->dots_per_inch < kUnknown) continue;
+    const std::pair told(header->dots_per_inch, file.filename().string());
+    if (!least || told.first < least->first) least = told;
+    if (!most || told.first > most->first) most = told;
+  }
+  if (!least || most->first < kSame * least->first) return;
+  notes.push_back(fmt::format(
+      "{} says that it has {:.0f} dots an inch, {} {:.0f}: pieces fit only at one resolution, so scale the "
+      "pictures to one if that is so",
+      most->second, most->first, least->second, least->first));
+}
+
 PieceSet read_folder(const std::string& folder, const ExtractOptions& options) {
   std::error_code problem;
   std::vector<fs::path> files;
+  std::vector<fs::path> others;
   std::vector<std::string> results;
   for (auto entry = fs::directory_iterator(folder, problem); !problem && entry != fs::directory_iterator();
        entry.increment(problem)) {
     const Kind kind = kind_of(entry->path());
+    if (is_other_picture(entry->path())) others.push_back(entry->path());
     if (kind == Kind::Unknown || is_beside_the_pieces(entry->path().filename().string(), results)) continue;
     const bool other_json = kind == Kind::GeoJson && entry->path().extension() == ".json";
     if (!other_json) files.push_back(entry->path());
@@ -172,6 +207,13 @@ PieceSet read_folder(const std::string& folder, const ExtractOptions& options) {
                                     *std::min_element(results.begin(), results.end()),
                                     results.size() == 1 ? "is" : "are"));
   }
+  std::sort(others.begin(), others.end());
+  for (const fs::path& file : others) {
+    all.unusable.push_back(
+        {file.filename().string(),
+         fmt::format("{}: is a picture of a kind that is not read; save it as png, jpg or tif",
+                     file.string())});
+  }
   for (const fs::path& file : files) {
     try {
       PieceSet set = read_pieces(file.string(), options);
@@ -181,6 +223,7 @@ PieceSet read_folder(const std::string& folder, const ExtractOptions& options) {
       all.unusable.push_back({file.filename().string(), error.what()});
     }
   }
+  doubt_resolutions(files, all.notes);
   take_out_repeats(all);
   if (all.pieces.empty()) throw InputError(folder, "holds nothing that can be used", all.unusable[0].reason);
   return all;

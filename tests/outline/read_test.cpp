@@ -180,6 +180,27 @@ TEST_F(Read, OnePictureInSeveralFormatsIsOnePiece) {
   EXPECT_EQ(set.repeated.size(), 2U);
 }
 
+TEST_F(Read, PicturesThatTellDifferentResolutionsAreDoubted) {
+  const auto tiff = [&](const char* name, double bump, int dots) {
+    cv::imwrite((folder_ / name).string(), blot(bump),
+                {cv::IMWRITE_TIFF_RESUNIT, 2, cv::IMWRITE_TIFF_XDPI, dots, cv::IMWRITE_TIFF_YDPI, dots});
+  };
+  tiff("a.tif", 10, 300);
+  tiff("b.tif", 50, 300);
+  EXPECT_TRUE(read_folder(folder_.string()).notes.empty());
+  // A JPEG of the same 300 dots an inch, told as 118 a centimetre, and then of 200 dots an inch.
+  const std::string jpeg = (folder_ / "c.jpg").string();
+  for (const auto& [unit, dots, notes] : {std::tuple(2, 118, 0U), std::tuple(1, 200, 1U)}) {
+    cv::imwrite(jpeg, blot(90));
+    std::fstream file(jpeg, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(13);
+    const char bytes[] = {static_cast<char>(unit), 0, static_cast<char>(dots), 0, static_cast<char>(dots)};
+    file.write(bytes, sizeof bytes);
+    file.close();
+    EXPECT_EQ(read_folder(folder_.string()).notes.size(), notes) << unit;
+  }
+}
+
 TEST_F(Read, ResultsAndHiddenFilesOfAFolderAreNoPieces) {
   for (const char* name : {"a.png", "object_12.png", "similarity.png"})
     cv::imwrite((folder_ / name).string(), blot(30));

@@ -11,6 +11,7 @@
 namespace rejoin::outline::detail {
 namespace {
 
+constexpr double kCentimetresAnInch = 2.54;
 constexpr std::string_view kPngStart("\x89PNG\r\n\x1a\n", 8);
 
 /// A whole number of `count` bytes; the first byte is the highest if `big`.
@@ -24,11 +25,36 @@ std::optional<std::size_t> number_at(std::string_view bytes, std::size_t place, 
   return value;
 }
 
+/// From the pHYs chunk, which comes before the pixels: dots a metre.
+double png_resolution(std::string_view bytes) {
+  std::size_t place = kPngStart.size();
+  while (const auto length = number_at(bytes, place, 4, true)) {
+    const std::string_view kind = bytes.substr(std::min(place + 4, bytes.size()), 4);
+    if (kind == "pHYs") {
+      const auto across = number_at(bytes, place + 8, 4, true);
+      const auto unit = number_at(bytes, place + 16, 1, true);
+      return across && unit == 1U ? static_cast<double>(*across) * kCentimetresAnInch / 100.0 : 0.0;
+    }
+    if (kind == "IDAT" || kind.size() < 4 || *length > bytes.size()) return 0.0;
+    place += 12 + *length;
+  }
+  return 0.0;
+}
+
 std::optional<ImageHeader> png_header(std::string_view bytes) {
   const auto width = number_at(bytes, 16, 4, true);
   const auto height = number_at(bytes, 20, 4, true);
   if (!width || !height) return std::nullopt;
-  return ImageHeader{*width, *height};
+  return ImageHeader{*width, *height, png_resolution(bytes)};
+}
+
+/// From the JFIF segment, which comes first where there is one: its unit (1 inch, 2 cm) and dots across.
+double jpeg_resolution(std::string_view bytes) {
+  if (bytes.substr(6, 5) != std::string_view("JFIF\0", 5)) return 0.0;
+  const auto unit = number_at(bytes, 13, 1, true);
+  const auto across = number_at(bytes, 14, 2, true);
+  if (!unit || !across || *unit == 0 || *unit > 2) return 0.0;
+  return static_cast<double>(*across) * (*unit == 2 ? kCentimetresAnInch : 1.0);
 }
 
 /// Walks over the segments to the start of frame (SOF0 to SOF15 but DHT, JPG, DAC).
@@ -43,7 +69,7 @@ std::optional<ImageHeader> jpeg_header(std::string_view bytes) {
       const auto height = number_at(bytes, place + 5, 2, true);
       const auto width = number_at(bytes, place + 7, 2, true);
       if (!width || !height) return std::nullopt;
-      return ImageHeader{*width, *height};
+      return ImageHeader{*width, *height, jpeg_resolution(bytes)};
     }
     place += 2 + std::max<std::size_t>(*length, 2);
   }
@@ -57,13 +83,21 @@ bool jpeg_is_whole(std::string_view bytes) {
   return pixels != std::string_view::npos && bytes.find("\xFF\xD9", pixels) != std::string_view::npos;
 }
 
-/// Width and height are tags 256 and 257 of the first directory, as 16 or 32 bits.
+/// Two whole numbers, one over the other.
+double tiff_ratio(std::string_view bytes, std::size_t place, bool big) {
+  const auto above = number_at(bytes, place, 4, big);
+  const auto below = number_at(bytes, place + 4, 4, big);
+  return above && below && *below > 0 ? static_cast<double>(*above) / static_cast<double>(*below) : 0.0;
+}
+
+/// Width and height are tags 256 and 257 of the first directory, as 16 or 32 bits; 282 is dots across a unit, 296 the unit (2 inch, 3 cm).
 std::optional<ImageHeader> tiff_header(std::string_view bytes) {
   const bool big = bytes[0] == 'M';
   const auto directory = number_at(bytes, 4, 4, big);
   const auto entries = directory ? number_at(bytes, *directory, 2, big) : std::nullopt;
   if (!entries) return std::nullopt;
   ImageHeader header;
+  double to_inch = 1.0;
   for (std::size_t i = 0; i < *entries; ++i) {
     const std::size_t entry = *directory + 2 + 12 * i;
     const auto tag = number_at(bytes, entry, 2, big);
@@ -72,8 +106,11 @@ std::optional<ImageHeader> tiff_header(std::string_view bytes) {
     if (!tag || !value) return std::nullopt;
     if (*tag == 256) header.width = *value;
     if (*tag == 257) header.height = *value;
+    if (*tag == 282) header.dots_per_inch = tiff_ratio(bytes, *value, big);
+    if (*tag == 296) to_inch = *value == 3 ? kCentimetresAnInch : *value == 2 ? 1.0 : 0.0;
   }
   if (header.width == 0 || header.height == 0) return std::nullopt;
+  header.dots_per_inch *= to_inch;
   return header;
 }
 

@@ -13,6 +13,7 @@ namespace rejoin::outline::detail {
 struct ImageHeader {
   std::size_t width = 0;
   std::size_t height = 0;
+  double dots_per_inch = 0.0;  ///< across; 0: not told
 };
 
 /// Size from the header of a PNG, JPEG or TIFF; nullopt if it is none or its header is broken.
