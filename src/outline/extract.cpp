@@ -159,6 +159,26 @@ bool is_bed(const Polygon& polygon, const cv::Mat& image) {
          signed_area(polygon) > kRectangle * (high.x - low.x) * (high.y - low.y);
 }
 
+/// What may have been taken for a piece in front of the background.
+/// \param outer  largest first   \param distance  detail::Coverage::distance
+void doubt_background(const std::vector<Polygon>& outer, const cv::Mat& distance,
+                      std::vector<std::string>& notes) {
+  if (std::any_of(outer.begin(), outer.end(), [&](const Polygon& p) { return is_blurred(p, distance); }))
+    notes.emplace_back(
+        "the outline is blurred, so look whether it is the piece's or that of light on the background");
+  if (outer.size() > kMany && signed_area(outer[0]) < kSmall * static_cast<double>(distance.total())) {
+    notes.push_back(fmt::format(
+        "{} pieces, all small: if these are letters or specks, the background is too like the piece",
+        outer.size()));
+  }
+  if (is_bed(outer[0], distance)) {
+    notes.emplace_back(
+        "the largest piece is a rectangle along the picture's border: if that is the page or the scanner's "
+        "bed, cut "
+        "the frame around it off");
+  }
+}
+
 /// Leaves out the pieces that the picture's border cuts, unless none is whole.
 void judge_cut_pieces(std::vector<Polygon>& outer, const cv::Mat& image, std::vector<std::string>& notes) {
   const auto cut = [&](const Polygon& polygon) { return length_on_border(polygon, image) > kMostOnBorder; };
@@ -186,22 +206,7 @@ Extraction extract(const std::string& path, const ExtractOptions& options) {
   Extraction result;
   result.notes = std::move(coverage.notes);
   judge_cut_pieces(loops.outer, image, result.notes);
-  if (std::any_of(loops.outer.begin(), loops.outer.end(),
-                  [&](const Polygon& polygon) { return is_blurred(polygon, coverage.distance); })) {
-    result.notes.emplace_back(
-        "the outline is blurred, so look whether it is the piece's or that of light on the background");
-  }
-  if (loops.outer.size() > kMany &&
-      signed_area(loops.outer[0]) < kSmall * static_cast<double>(image.total())) {
-    result.notes.push_back(fmt::format(
-        "{} pieces, all small: if these are letters or specks, the background is too like the piece",
-        loops.outer.size()));
-  }
-  if (is_bed(loops.outer[0], image)) {
-    result.notes.emplace_back(
-        "the largest piece is a rectangle along the picture's border: if that is the page or the scanner's "
-        "bed, cut the frame around it off");
-  }
+  if (!coverage.distance.empty()) doubt_background(loops.outer, coverage.distance, result.notes);
   result.pieces.reserve(loops.outer.size());
   for (Polygon& polygon : loops.outer) {
     Outline outline;

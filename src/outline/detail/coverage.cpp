@@ -177,7 +177,7 @@ Coverage coverage(const cv::Mat& image, const std::string& path) {
   // A padded blur, so that a piece at the picture's border is not drawn inwards.
   if (is_binary(alpha))
     cv::GaussianBlur(alpha, alpha, cv::Size(), kStaircaseBlur, kStaircaseBlur, cv::BORDER_REPLICATE);
-  return {alpha, alpha, {}};
+  return {alpha, {}, {}};
 }
 
 }  // namespace rejoin::outline::detail
