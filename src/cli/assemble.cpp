@@ -67,6 +67,7 @@ class AssembleCommand final : public Command {
     const std::vector<std::filesystem::path> files = json_files(console);
     std::optional<std::filesystem::path> keep;
     if (out_) keep = kept_run();
+    if (constraints_) read_constraints(*constraints_, names_in(input_));  // before hours of matching
     const AssembleInput input = read_assemble_input(input_, keep, console, context);
     if (context.cancelled()) return stopped(console);
     if (constraints_) options_.constraints = read_constraints(*constraints_, input.names);
@@ -128,7 +129,8 @@ class AssembleCommand final : public Command {
 
   ExitCode stopped(Console& console) const {
     console.end_progress();
-    console.warning(out_ ? "interrupted; the same command goes on where it stopped" : "interrupted");
+    console.warning(out_ && !is_run(input_) ? "interrupted; the same command goes on where it stopped"
+                                            : "interrupted");
     return kInterrupted;
   }
 

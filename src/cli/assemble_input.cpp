@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "batch/batch.hpp"
+#include "batch/inputs.hpp"
 #include "batch/shelf.hpp"
 #include "cli/batch_listeners.hpp"
 #include "cli/fragment.hpp"
@@ -108,6 +109,13 @@ AssembleInput match_and_read(const fs::path& scans, const fs::path& run, Console
 bool is_run(const fs::path& folder) {
   std::error_code ignored;
   return fs::exists(folder / store::kFileName, ignored);
+}
+
+std::vector<std::string> names_in(const fs::path& folder) {
+  if (!is_run(folder)) return batch::find_scans(folder);
+  std::vector<std::string> names;
+  for (const store::Fragment& fragment : store::Run::open(folder).fragments()) names.push_back(fragment.name);
+  return names;
 }
 
 AssembleInput read_assemble_input(const fs::path& folder, const std::optional<fs::path>& keep,

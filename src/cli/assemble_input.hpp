@@ -30,6 +30,10 @@ inline constexpr const char* kAssemblyName = "assembly.json";
 /// Whether the folder is that of a run.
 bool is_run(const std::filesystem::path& folder);
 
+/// Names of the scans of a run or a folder, whether they can be used or not.
+/// \throws IoError, StoreError, InputError  there are none
+std::vector<std::string> names_in(const std::filesystem::path& folder);
+
 /// Reads a run, or matches all pairs of a folder of scans first, and loads the fragments.  Bad ones are told as warnings and
 /// left out.
 /// \param folder  of a run (it holds run.sqlite), or of scans

@@ -78,7 +78,10 @@ class ShatterCommand final : public Command {
     for (const std::string& warning : loaded.warnings) console.warning(warning);
     const shatter::Shattered shattered = shatter::shatter(path_, loaded.mesh, options_, context);
     console.end_progress();
-    if (shattered.cancelled) return kInterrupted;
+    if (shattered.cancelled) {
+      console.warning("interrupted; nothing is written");
+      return kInterrupted;
+    }
     const std::filesystem::path folder(out_);
     for (std::size_t k = 0; k < shattered.pieces.size(); ++k) {
       mesh::save(folder / file_name(k), shattered.pieces[k].scan);

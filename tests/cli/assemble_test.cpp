@@ -112,6 +112,17 @@ TEST_F(BrokenBall, AFolderOfScansIsNotMatchedForNothing) {
   EXPECT_TRUE(finished.out.empty()) << finished.out;
 }
 
+TEST_F(BrokenBall, WishesThatCannotBeReadAreRefusedBeforeAnyPairIsMatched) {
+  const std::string wishes = folder_ / "wishes.json";
+  for (const char* text : {"{", R"({"must_join": [["fragment_00.ply", "fragment_17.ply"]]})"}) {
+    write_file(wishes, text);
+    const Finished finished = run({"assemble", scans_, "--out", folder_ / "out", "--constraints", wishes});
+    EXPECT_EQ(finished.exit_code, 1);
+    EXPECT_NE(finished.err.find(wishes), std::string::npos) << finished.err;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out/run/run.sqlite"));
+  }
+}
+
 TEST_F(BrokenBall, AFolderWithoutScansOrARunIsRefused) {
   std::filesystem::create_directory(folder_ / "empty");
   const Finished finished = run({"assemble", folder_ / "empty", "--json", json_});
