@@ -243,7 +243,7 @@ TEST(OutlineAssemble, TellsEveryFileThatItWrites) {
     EXPECT_NE(done.out.find("wrote " + entry.path().string() + "\n"), std::string::npos) << done.out;
     ++told;
   }
-  EXPECT_EQ(told, 5U);  // two objects, two pictures each, and similarity.png
+  EXPECT_EQ(told, 6U);  // pieces.png, two objects, two pictures each, and similarity.png
   EXPECT_NE(done.out.find("wrote " + file + "\n"), std::string::npos) << done.out;
 }
 
