@@ -4,8 +4,6 @@
 #include <xxhash.h>
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -13,22 +11,18 @@
 #include <memory>
 
 #include "core/error.hpp"
+#include "mesh/load.hpp"
 
 namespace rejoin::batch {
 namespace fs = std::filesystem;
 namespace {
-
-constexpr std::array<const char*, 7> kExtensions = {".ply", ".obj", ".stl", ".off", ".gltf", ".glb", ".drc"};
 
 bool is_scan(const fs::directory_entry& entry) {
   std::error_code ignored;
   if (entry.is_directory(ignored)) return false;
   if (entry.path().filename().string().starts_with('.'))
     return false;  // hidden, as macOS leaves one beside every file
-  std::string extension = entry.path().extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+  return mesh::has_scan_name(entry.path());
 }
 
 }  // namespace

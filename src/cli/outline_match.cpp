@@ -10,6 +10,7 @@
 #include "cli/outline_json.hpp"
 #include "cli/outline_rims.hpp"
 #include "core/files.hpp"
+#include "mesh/load.hpp"
 #include "outline/stitch.hpp"
 #include "report/outline_pictures.hpp"
 
@@ -62,7 +63,7 @@ class OutlineMatchCommand final : public Command {
   ExitCode run(Console& console, Context& context) override {
     const auto begin = std::chrono::steady_clock::now();
     require_two_files(path_a_, path_b_);
-    if (is_scan(path_a_) || is_scan(path_b_)) return run_rims(console, context);
+    if (mesh::has_scan_name(path_a_) || mesh::has_scan_name(path_b_)) return run_rims(console, context);
     outline::MultiscaleOptions multiscale = thorough();
     apply_calibration(calibration_, method_, multiscale);
     if (json_) require_writable_file(*json_);
@@ -91,7 +92,7 @@ class OutlineMatchCommand final : public Command {
 
  private:
   ExitCode run_rims(Console& console, Context& context) {
-    if (!is_scan(path_a_) || !is_scan(path_b_))
+    if (!mesh::has_scan_name(path_a_) || !mesh::has_scan_name(path_b_))
       throw UsageError("A B", "one is a scan and the other is flat", "give two of a kind");
     if (out_ || calibration_ || method_ != OutlineMethod::Automatic) {
       throw UsageError(out_           ? "--out"

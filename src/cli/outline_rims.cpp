@@ -2,9 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <array>
-#include <cctype>
 #include <chrono>
 #include <filesystem>
 
@@ -55,13 +52,6 @@ std::string summary(const std::vector<rims::Proposal>& proposals) {
 }
 
 }  // namespace
-
-bool is_scan(const std::string& path) {
-  constexpr std::array<const char*, 7> kEndings{".ply", ".obj", ".stl", ".off", ".gltf", ".glb", ".drc"};
-  std::string ending = std::filesystem::path(path).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
-}
 
 ExitCode match_rims(const std::string& path_a, const std::string& path_b,
                     const std::optional<std::string>& json, Console& console, Context& context) {

@@ -8,9 +8,6 @@
 
 namespace rejoin::cli {
 
-/// Whether a file's name says that it is a scan, not a picture or an outline.
-bool is_scan(const std::string& path);
-
 /// Proposes poses by the rims of two scans; the best is printed, all go to `json`.
 ExitCode match_rims(const std::string& path_a, const std::string& path_b,
                     const std::optional<std::string>& json, Console& console, Context& context);

@@ -12,6 +12,9 @@ namespace rejoin {
 /// The path that stands for the standard output in write_file() and require_writable_file().
 inline constexpr std::string_view kStdout = "-";
 
+/// The name's ending in lower case, with its dot: ".ply"; empty if it has none.
+std::string extension_of(const std::filesystem::path& path);
+
 /// All bytes of a file, or of a pipe until it ends.  \throws IoError it is a folder or cannot be read; with the system's reason
 std::string read_file(const std::filesystem::path& path);
 

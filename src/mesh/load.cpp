@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <string_view>
 #include <system_error>
 
@@ -30,13 +29,15 @@ constexpr std::array kFormats{
     Format{".drc", "drc", detail::read_drc},
 };
 
+const Format* find_format(const std::string& extension) {
+  const auto* found = std::find_if(kFormats.begin(), kFormats.end(),
+                                   [&](const Format& format) { return extension == format.extension; });
+  return found == kFormats.end() ? nullptr : found;
+}
+
 const Format& format_of(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  for (const Format& format : kFormats) {
-    if (extension == format.extension) return format;
-  }
+  const std::string extension = extension_of(path);
+  if (const Format* format = find_format(extension)) return *format;
   throw InputError(path.string(),
                    extension.empty() ? "has no file name extension" : "unknown extension " + extension,
                    "use one of .ply .obj .stl .off .glb .gltf .drc");
@@ -87,6 +88,10 @@ Source read_source(const std::filesystem::path& path) {
 }
 
 }  // namespace detail
+
+bool has_scan_name(const std::filesystem::path& path) {
+  return find_format(extension_of(path)) != nullptr;
+}
 
 Loaded load(const std::filesystem::path& path, Weld weld) {
   std::error_code error;

@@ -23,6 +23,9 @@ enum class Weld {
   PlacesAndColours,  ///< of the same colour, too: borders of painted patches stay sharp, at the price of open edges
 };
 
+/// Whether a file's name ends as those do that load() reads.
+bool has_scan_name(const std::filesystem::path& path);
+
 /// Reads a mesh or an oriented cloud by its extension (any case) and cleans it.
 ///
 /// Equal vertices are welded (exactly equal ones: nothing depends on the scale), degenerate and duplicate

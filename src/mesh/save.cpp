@@ -1,7 +1,6 @@
 #include "mesh/save.hpp"
 
 #include <algorithm>
-#include <cctype>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -45,9 +44,7 @@ detail::Soup merged(const std::vector<Placed>& parts) {
 }
 
 std::string encode(const std::filesystem::path& path, const std::vector<Placed>& parts) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = extension_of(path);
   if (extension == ".glb") return detail::write_glb(parts);
   if (extension == ".ply") return detail::write_ply(merged(parts));
   if (extension == ".obj") return detail::write_obj(merged(parts));

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <optional>
 #include <regex>
@@ -23,10 +22,8 @@ namespace {
 enum class Kind { Picture, Csv, Svg, GeoJson, Unknown };
 
 Kind kind_of(const fs::path& path) {
-  std::string ending = path.extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (ending == ".png" || ending == ".jpg" || ending == ".jpeg" || ending == ".tif" || ending == ".tiff")
-    return Kind::Picture;
+  if (detail::has_picture_name(path)) return Kind::Picture;
+  const std::string ending = extension_of(path);
   if (ending == ".csv" || ending == ".txt") return Kind::Csv;
   if (ending == ".svg") return Kind::Svg;
   if (ending == ".geojson" || ending == ".json") return Kind::GeoJson;
@@ -152,10 +149,8 @@ bool is_beside_the_pieces(const std::string& name, std::vector<std::string>& res
 
 /// Whether a file is a picture of a kind that is not read.
 bool is_other_picture(const fs::path& path) {
-  std::string ending = path.extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   constexpr std::array<const char*, 7> kKinds = {".webp", ".gif", ".bmp", ".heic", ".jp2", ".avif", ".pdf"};
-  return std::find(kKinds.begin(), kKinds.end(), ending) != kKinds.end();
+  return std::find(kKinds.begin(), kKinds.end(), extension_of(path)) != kKinds.end();
 }
 
 /// What to say of pictures whose files tell different resolutions; what cameras write where they know none is passed over.

@@ -1,8 +1,5 @@
 #include "outline/detail/drawing.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cctype>
 #include <cstdint>
 #include <opencv2/imgcodecs.hpp>
 #include <vector>
@@ -19,10 +16,7 @@ constexpr std::size_t kMaxPixels = 120000000;
 }  // namespace
 
 bool is_picture(const Piece& piece) {
-  std::string kind = std::filesystem::path(piece.path).extension().string();
-  for (char& c : kind) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  constexpr std::array<const char*, 5> kKinds = {".png", ".jpg", ".jpeg", ".tif", ".tiff"};
-  return std::find(kKinds.begin(), kKinds.end(), kind) != kKinds.end();
+  return has_picture_name(piece.path);
 }
 
 cv::Mat colours_of(const Piece& piece) {

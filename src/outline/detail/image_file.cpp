@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <array>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -142,6 +144,11 @@ bool starts_like_a_picture(std::string_view bytes) {
 }
 
 }  // namespace
+
+bool has_picture_name(const std::filesystem::path& path) {
+  constexpr std::array<const char*, 5> kKinds = {".png", ".jpg", ".jpeg", ".tif", ".tiff"};
+  return std::find(kKinds.begin(), kKinds.end(), extension_of(path)) != kKinds.end();
+}
 
 std::optional<ImageHeader> image_header(std::string_view bytes) {
   if (bytes.starts_with(kPngStart)) return png_header(bytes);

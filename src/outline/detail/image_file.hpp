@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <string>
@@ -15,6 +16,9 @@ struct ImageHeader {
   std::size_t height = 0;
   double dots_per_inch = 0.0;  ///< across; 0: not told
 };
+
+/// Whether a file's name ends as those of pictures that are read do.
+bool has_picture_name(const std::filesystem::path& path);
 
 /// Size from the header of a PNG, JPEG or TIFF; nullopt if it is none or its header is broken.
 std::optional<ImageHeader> image_header(std::string_view bytes);
