@@ -22,8 +22,9 @@ struct Extraction {
 
 /// Pieces of a PNG, JPEG or TIFF, as sub-pixel contours: where alpha passes one half or, in a picture without
 /// transparency, where the colour is half-way from the plain background's (that of the frame; light that changes slowly
-/// over the picture is evened out, with a note) to that of the piece beside it.  Soft shadows are background, print is piece.  8 and 16 bits, grey, colour and CMYK; holes are kept.  A piece that runs out of the picture is cut
-/// there, with a note, or left out if others are whole.
+/// over the picture is evened out, with a note) to that of the piece beside it.  Soft shadows are background, print is
+/// piece.  8 and 16 bits, grey, colour and CMYK; holes are kept.  A piece that runs out of the picture is cut there,
+/// with a note, or left out if others are whole.
 /// \throws IoError   the file cannot be read
 /// \throws InputError it is no such picture, too large, truncated, or shows no piece on a plain background
 Extraction extract(const std::string& path, const ExtractOptions& options = {});

@@ -23,19 +23,6 @@ constexpr double kPlaces = 40000.0;
 
 using Places = std::vector<cv::Point>;
 
-Places frame_of(const cv::Size& size) {
-  Places frame;
-  for (int x = 0; x < size.width; ++x) {
-    frame.emplace_back(x, 0);
-    frame.emplace_back(x, size.height - 1);
-  }
-  for (int y = 0; y < size.height; ++y) {
-    frame.emplace_back(0, y);
-    frame.emplace_back(size.width - 1, y);
-  }
-  return frame;
-}
-
 Places grid_over(const cv::Size& size) {
   const int step = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(size.area()) / kPlaces)));
   Places grid;
@@ -76,6 +63,15 @@ Places that_follow(const cv::Mat& image, const Background& background, const Pla
 }
 
 }  // namespace
+
+Places frame_of(const cv::Size& size) {
+  Places frame;
+  for (int y = 0; y < size.height; ++y) {
+    const bool whole_row = y == 0 || y + 1 == size.height || size.width == 1;
+    for (int x = 0; x < size.width; x += whole_row ? 1 : size.width - 1) frame.emplace_back(x, y);
+  }
+  return frame;
+}
 
 Background::Terms Background::terms(int x, int y) const {
   const float u =

@@ -7,6 +7,9 @@
 
 namespace rejoin::outline::detail {
 
+/// The outermost pixels of a picture, each once.
+std::vector<cv::Point> frame_of(const cv::Size& size);
+
 /// A background of one colour, or of one that changes slowly over the picture, as under a lamp that stands aside.
 class Background {
  public:

@@ -115,16 +115,10 @@ cv::Mat field_of(const cv::Mat& distance, const cv::Mat& mask) {
 }
 
 double share_of_frame_above(const cv::Mat& field, double level) {
-  double above = 0.0;
-  double all = 0.0;
-  for (int y = 0; y < field.rows; ++y) {
-    const bool whole_row = y == 0 || y == field.rows - 1;
-    for (int x = 0; x < field.cols; x += whole_row || field.cols == 1 ? 1 : field.cols - 1) {
-      above += field.at<float>(y, x) > level ? 1.0 : 0.0;
-      all += 1.0;
-    }
-  }
-  return above / all;
+  const std::vector<cv::Point> frame = frame_of(field.size());
+  const auto above = std::count_if(frame.begin(), frame.end(),
+                                   [&](const cv::Point& place) { return field.at<float>(place) > level; });
+  return static_cast<double>(above) / static_cast<double>(frame.size());
 }
 
 Coverage coverage_from_background(const cv::Mat& image, const std::string& path) {

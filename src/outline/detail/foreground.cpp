@@ -94,11 +94,8 @@ cv::Mat touching(const cv::Mat& soft, const cv::Mat& bare) {
 /// What the frame usually is off the background, of those pixels that are no piece.
 double noise_of(const cv::Mat& distance, double most) {
   std::vector<float> values;
-  for (int y = 0; y < distance.rows; ++y) {
-    const bool whole_row = y == 0 || y == distance.rows - 1;
-    for (int x = 0; x < distance.cols; x += whole_row || distance.cols == 1 ? 1 : distance.cols - 1)
-      if (distance.at<float>(y, x) < most) values.push_back(distance.at<float>(y, x));
-  }
+  for (const cv::Point& place : frame_of(distance.size()))
+    if (distance.at<float>(place) < most) values.push_back(distance.at<float>(place));
   return median(values);
 }
 
