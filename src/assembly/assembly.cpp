@@ -31,6 +31,12 @@ std::vector<Piece> make_pieces(const std::vector<match::Fragment>& fragments) {
   return pieces;
 }
 
+/// Whether two pieces are one of the pairs, whichever comes first.
+bool among(const std::vector<std::pair<std::size_t, std::size_t>>& pairs, std::size_t a, std::size_t b) {
+  return std::ranges::any_of(
+      pairs, [&](const auto& pair) { return std::minmax(pair.first, pair.second) == std::minmax(a, b); });
+}
+
 /// The given links in an order that does not depend on theirs, and those that follow from them.
 std::vector<Link> all_links(const std::vector<Piece>& pieces, std::vector<Link> links, const Options& options,
                             const Context& context) {
@@ -146,12 +152,6 @@ class Assembler {
     }
   }
 
-  bool must_join(std::size_t a, std::size_t b) const {
-    return std::ranges::any_of(options_.constraints.must_join, [&](const auto& pair) {
-      return std::minmax(pair.first, pair.second) == std::minmax(a, b);
-    });
-  }
-
   void number_groups(Result& result) {
     std::map<std::size_t, std::vector<std::size_t>> by_group;
     for (std::size_t k = 0; k < pieces_.size(); ++k) by_group[growth_.group[k]].push_back(k);
@@ -172,13 +172,6 @@ class Assembler {
     return std::min(pieces_[a].area(), pieces_[b].area());
   }
 
-  bool is_unwanted(std::size_t a, std::size_t b) const {
-    const auto& list = options_.constraints.must_not_join;
-    return std::any_of(list.begin(), list.end(), [&](const auto& p) {
-      return (p.first == a && p.second == b) || (p.first == b && p.second == a);
-    });
-  }
-
   void find_joins(const std::vector<std::size_t>& members, Result& result) const {
     const std::set<std::size_t> used(growth_.used.begin(), growth_.used.end());
     for (std::size_t x = 0; x < members.size(); ++x) {
@@ -187,10 +180,10 @@ class Assembler {
         const std::size_t b = members[y];
         const std::size_t link = grower_.agreeing(growth_, a, b);
         const bool matched = link < links_.size();
-        if (is_unwanted(a, b)) continue;
+        if (among(options_.constraints.must_not_join, a, b)) continue;
         const Touch contact = touch(pieces_[a], pieces_[b], relative(a, b));
         const double share = contact.area / smaller_area(a, b);
-        const double least = must_join(a, b) ? kMet : matched ? kContact : kFound;
+        const double least = among(options_.constraints.must_join, a, b) ? kMet : matched ? kContact : kFound;
         if (share < least && !(matched && used.count(link) != 0)) continue;
         const double score =
             matched
@@ -279,16 +272,10 @@ class Assembler {
       if ((link.a == piece || link.b == piece) && (best == nullptr || link.score > best->score)) best = &link;
     }
     if (best == nullptr) return "no pose was found for it with any other fragment";
-    const char* said = must_not_join(best->a, best->b)
+    const char* said = among(options_.constraints.must_not_join, best->a, best->b)
                            ? "its best join is one that must not be: with {{{}}}, score {:.3f}"
                            : "no join is sure: the best is with {{{}}}, score {:.3f}";
     return fmt::format(fmt::runtime(said), best->a == piece ? best->b : best->a, best->score);
-  }
-
-  bool must_not_join(std::size_t a, std::size_t b) const {
-    return std::ranges::any_of(options_.constraints.must_not_join, [&](const auto& pair) {
-      return std::minmax(pair.first, pair.second) == std::minmax(a, b);
-    });
   }
 
   void tell_broken_wishes(Result& result) const {
