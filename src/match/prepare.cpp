@@ -13,8 +13,7 @@ namespace rejoin::match {
 namespace {
 
 constexpr std::size_t kCoarseFaces = 40000;
-/// Edges across a wall: with fewer, a break has no shape to be known by (of five bone pieces with 4.0 every join is found, with 2.9
-/// none).
+/// Edges across a wall: with fewer, a break has hardly any shape to be known by (docs/results.md, coarse meshes of sherds).
 constexpr double kEdgesAcross = 3.5;
 
 /// Of equilateral triangles as large as the surface's are on average.
@@ -27,7 +26,7 @@ void doubt_coarse_walls(Fragment& fragment) {
   const double across = fragment.facets.wall_thickness / mean_edge(fragment.surface);
   if (across <= 0.0 || across >= kEdgesAcross) return;
   fragment.warnings.push_back(
-      fmt::format("{}: its mesh has {:.1f} edges across the wall ({:.3g} thick); joins are hardly found with "
+      fmt::format("{}: its mesh has {:.1f} edges across the wall ({:.3g} thick); joins are hardly sure with "
                   "fewer than {:.1f}: scan or export it more finely",
                   fragment.path, across, fragment.facets.wall_thickness, kEdgesAcross));
 }

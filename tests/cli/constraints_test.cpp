@@ -43,6 +43,11 @@ struct Hostile {
   const char* says;  ///< part of the message
 };
 
+/// What GoogleTest and CTest show for the case.
+void PrintTo(const Hostile& value, std::ostream* out) {
+  *out << value.name;
+}
+
 class HostileConstraints : public ::testing::TestWithParam<Hostile> {};
 
 TEST_P(HostileConstraints, AreRefusedWithFileAndPlace) {
