@@ -83,7 +83,7 @@ class Completer {
     if (score < kLikely) return std::nullopt;
     const Link link{guess.a, guess.b, match::to_files(a.fragment(), b.fragment(), fine), score};
     const bool stayed = same_pose(a, b, guess.pose, link.pose, options_);
-    if (!stayed || is_known(link) || overlap(a, b, link.pose) > kMostOverlap) return std::nullopt;
+    if (!stayed || is_known(link) || interpenetrate(a, b, link.pose)) return std::nullopt;
     return link;
   }
 

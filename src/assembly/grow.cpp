@@ -323,14 +323,14 @@ bool Grower::try_two(State& state, const Context& context) {
   return true;
 }
 
-double Grower::overlap_of(std::size_t a, std::size_t b, const Rigid& b_to_a) {
+bool Grower::overlap(std::size_t a, std::size_t b, const Rigid& b_to_a) {
   std::vector<double> key{static_cast<double>(a), static_cast<double>(b)};
   for (int k = 0; k < 3; ++k) {
     key.insert(key.end(),
                {b_to_a.rotation[k].x, b_to_a.rotation[k].y, b_to_a.rotation[k].z, b_to_a.translation[k]});
   }
-  const auto [place, fresh] = overlaps_.try_emplace(std::move(key), 0.0);
-  if (fresh) place->second = overlap(pieces_[a], pieces_[b], b_to_a);
+  const auto [place, fresh] = overlaps_.try_emplace(std::move(key), false);
+  if (fresh) place->second = interpenetrate(pieces_[a], pieces_[b], b_to_a);
   return place->second;
 }
 
@@ -342,7 +342,7 @@ bool Grower::fits(State& state, std::size_t link) {
   for (const std::size_t a : state.members[into]) {
     for (const std::size_t b : state.members[from]) {
       const Rigid b_to_a = inverse(state.growth.poses[a]) * from_to_into * state.growth.poses[b];
-      if (overlap_of(a, b, b_to_a) > kMostOverlap) {
+      if (overlap(a, b, b_to_a)) {
         state.growth.rejected.push_back({link, Rejection::Why::Overlap, a, b});
         return false;
       }

@@ -111,7 +111,7 @@ class Grower {
   bool try_two(State& state, const Context& context);
   std::vector<Two> unsure_together(const State& state) const;
   bool fits(State& state, std::size_t link);
-  double overlap_of(std::size_t a, std::size_t b, const Rigid& b_to_a);
+  bool overlap(std::size_t a, std::size_t b, const Rigid& b_to_a);
   void merge(State& state, std::size_t link, double odds) const;
   void sum_up(Growth& growth) const;
   void tell_contradictions(State& state) const;
@@ -128,7 +128,7 @@ class Grower {
   std::map<Key, std::vector<std::size_t>> links_of_;  ///< by fragments, best first
   std::vector<Key> wanted_, unwanted_;
   std::map<Question, double> answered_;  ///< what contacts said before, wherever the groups lay by then
-  std::map<std::vector<double>, double> overlaps_;  ///< what was computed before, by pair and pose
+  std::map<std::vector<double>, bool> overlaps_;  ///< what was computed before, by pair and pose
 };
 
 }  // namespace rejoin::assembly

@@ -14,6 +14,7 @@ constexpr std::size_t kBodySamples = 2500;
 constexpr double kFacing = -0.5;   // normals within 60 degrees of opposite
 constexpr double kClearly = 0.25;  // wall thicknesses; less inside is worn edges and small errors of the pose
 constexpr std::size_t kInsideSamples = 600;
+constexpr double kMostOverlap = 0.03;  // of the smaller one's surface
 
 std::size_t stride(std::size_t count, std::size_t most) {
   return most > 0 ? std::max<std::size_t>(1, count / most) : 1;
@@ -46,31 +47,38 @@ std::vector<bool> border_faces(const mesh::Mesh& mesh) {
   return result;
 }
 
-/// Area of b's body that lies deeper than `limit` inside a.
-double inside_area(const Piece& a, const Piece& b, const Rigid& b_to_a, double limit) {
-  double count = 0.0;
+/// Adds up area until it is more than is allowed.
+class Allowance {
+ public:
+  explicit Allowance(double area) : left_(area) {}
+  void spend(double area) { left_ -= area; }
+  bool is_spent() const { return left_ < 0.0; }
+
+ private:
+  double left_;
+};
+
+/// Spends what of b's body lies deeper than `limit` inside a.
+void spend_inside(const Piece& a, const Piece& b, const Rigid& b_to_a, double limit, Allowance& allowance) {
   for (const glm::vec3& point : b.body().at) {
-    const glm::dvec3 in_a = b_to_a(b.fragment().surface.origin + glm::dvec3(point));
-    if (glm::distance(in_a, a.centre()) > a.radius()) continue;
-    if (a.depth(in_a) > limit) count += 1.0;
+    if (allowance.is_spent()) return;
+    if (a.holds(b_to_a(b.fragment().surface.origin + glm::dvec3(point)), limit))
+      allowance.spend(b.body_area());
   }
-  return count * b.body_area();
 }
 
-/// Area of b's body under which the inside of b is clearly inside a too.  Surfaces that coincide lie nowhere in each other, and all of their
-/// insides do: two scans of one sherd.
-double shared_inside_area(const Piece& a, const Piece& b, const Rigid& b_to_a, double limit) {
+/// Spends what of b's body has an inside under it that is clearly inside a too.  Surfaces that coincide lie nowhere in each other, and all of
+/// their insides do: two scans of one sherd.
+void spend_shared_inside(const Piece& a, const Piece& b, const Rigid& b_to_a, double limit,
+                         Allowance& allowance) {
   const Points& body = b.body();
   const std::size_t step = stride(body.at.size(), kInsideSamples);
-  double count = 0.0;
-  for (std::size_t i = 0; i < body.at.size(); i += step) {
+  for (std::size_t i = 0; i < body.at.size() && !allowance.is_spent(); i += step) {
     const glm::dvec3 in_b =
         b.fragment().surface.origin + glm::dvec3(body.at[i]) - 2.0 * limit * glm::dvec3(body.normals[i]);
-    const glm::dvec3 in_a = b_to_a(in_b);
-    if (glm::distance(in_a, a.centre()) > a.radius()) continue;
-    if (a.depth(in_a) > limit && b.depth(in_b) > limit) count += 1.0;
+    if (a.holds(b_to_a(in_b), limit) && b.holds(in_b, limit))
+      allowance.spend(static_cast<double>(step) * b.body_area());
   }
-  return count * static_cast<double>(step) * b.body_area();
 }
 
 }  // namespace
@@ -91,6 +99,7 @@ Piece::Piece(const match::Fragment& fragment) : fragment_(&fragment) {
   body_area_ = facets.sample_area * static_cast<double>(step);
   broken_index_ = std::make_unique<mesh::PointIndex>(broken_.at);
   gap_ = std::make_unique<match::GapField>(fragment.surface);
+  most_depth_ = std::make_unique<DepthBound>(*gap_);
   on_border_ = border_faces(fragment.surface);
   const mesh::Box box = mesh::bounds(fragment.surface);
   const glm::dvec3 middle = 0.5 * glm::dvec3(box.low + box.high);
@@ -99,10 +108,11 @@ Piece::Piece(const match::Fragment& fragment) : fragment_(&fragment) {
   centre_ = fragment.surface.origin + middle;
 }
 
-double Piece::depth(const glm::dvec3& point) const {
-  const auto hit = gap_->at(glm::vec3(point - fragment_->surface.origin), static_cast<float>(radius_));
-  if (!hit || on_border_[hit->face]) return 0.0;
-  return std::max(0.0, -static_cast<double>(hit->gap));
+bool Piece::holds(const glm::dvec3& point, double depth) const {
+  const glm::vec3 own(point - fragment_->surface.origin);
+  if (most_depth_->at(own) <= depth) return false;
+  const auto nearest = gap_->at(own, static_cast<float>(radius_));
+  return nearest && !on_border_[nearest->face] && -static_cast<double>(nearest->gap) > depth;
 }
 
 bool are_near(const Piece& a, const Piece& b, const Rigid& b_to_a, double distance) {
@@ -157,8 +167,8 @@ Touch touch(const Piece& a, const Piece& b, const Rigid& b_to_a) {
   return {touching_count * b.broken_area(), match::median_gap(std::move(gaps))};
 }
 
-double overlap(const Piece& a, const Piece& b, const Rigid& b_to_a) {
-  if (!are_near(a, b, b_to_a, 0.0)) return 0.0;
+bool interpenetrate(const Piece& a, const Piece& b, const Rigid& b_to_a) {
+  if (!are_near(a, b, b_to_a, 0.0)) return false;
   const double ta = a.fragment().facets.wall_thickness;
   const double tb = b.fragment().facets.wall_thickness;
   const double thickness = ta > 0 && tb > 0 ? std::min(ta, tb) : 0.0;
@@ -166,12 +176,17 @@ double overlap(const Piece& a, const Piece& b, const Rigid& b_to_a) {
   const double size = std::min(a.fragment().diameter, b.fragment().diameter);
   const double limit = std::max(thickness > 0 ? kClearly * thickness : 0.01 * size, 2.0 * scan);
   const Rigid a_to_b = inverse(b_to_a);
-  const double smaller = std::min(a.area(), b.area());
-  const double surface = (inside_area(a, b, b_to_a, limit) + inside_area(b, a, a_to_b, limit)) / smaller;
-  if (surface > kMostOverlap) return surface;
-  const double inside =
-      a.area() < b.area() ? shared_inside_area(b, a, a_to_b, limit) : shared_inside_area(a, b, b_to_a, limit);
-  return std::max(surface, inside / smaller);
+  const double allowed = kMostOverlap * std::min(a.area(), b.area());
+  Allowance surface(allowed);
+  spend_inside(a, b, b_to_a, limit, surface);
+  spend_inside(b, a, a_to_b, limit, surface);
+  if (surface.is_spent()) return true;
+  Allowance inside(allowed);
+  if (a.area() < b.area())
+    spend_shared_inside(b, a, a_to_b, limit, inside);
+  else
+    spend_shared_inside(a, b, b_to_a, limit, inside);
+  return inside.is_spent();
 }
 
 }  // namespace rejoin::assembly

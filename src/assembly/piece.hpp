@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "assembly/depth_bound.hpp"
 #include "match/gap.hpp"
 #include "match/match.hpp"
 #include "mesh/point_index.hpp"
@@ -36,9 +37,9 @@ class Piece {
   glm::dvec3 centre() const { return centre_; }  ///< of the ball around it, file coordinates
   double radius() const { return radius_; }
 
-  /// How deep a point lies inside, mesh units; 0 outside, and where an open border makes it uncertain.
+  /// Whether a point lies inside, deeper than `depth` (>= 0, mesh units); false where an open border makes it uncertain.
   /// \param point  file coordinates
-  double depth(const glm::dvec3& point) const;
+  bool holds(const glm::dvec3& point, double depth) const;
 
  private:
   const match::Fragment* fragment_;
@@ -46,6 +47,7 @@ class Piece {
   Points body_;
   std::unique_ptr<mesh::PointIndex> broken_index_;
   std::unique_ptr<match::GapField> gap_;
+  std::unique_ptr<DepthBound> most_depth_;
   std::vector<bool> on_border_;  ///< faces with a corner on an open edge
   double broken_area_ = 0;
   double body_area_ = 0;
@@ -82,11 +84,8 @@ Touch touch(const Piece& a, const Piece& b, const Rigid& b_to_a);
 /// Contact below this share of the smaller piece's surface is none.
 inline constexpr double kContact = 0.001;
 
-/// Overlap above which two pieces cannot lie as they do.
-inline constexpr double kMostOverlap = 0.03;
-
-/// Surface of the two that lies clearly inside the other, or of the smaller one with both insides under it, as a share of the smaller one's
-/// surface.  The second tells solids that coincide.
-double overlap(const Piece& a, const Piece& b, const Rigid& b_to_a);
+/// Whether two pieces cannot lie as they do: more than 3 % of the smaller one's surface lies clearly inside the other (both ways added up),
+/// or has both insides under it, which tells solids that coincide.
+bool interpenetrate(const Piece& a, const Piece& b, const Rigid& b_to_a);
 
 }  // namespace rejoin::assembly

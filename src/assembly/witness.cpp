@@ -24,8 +24,9 @@ class Meeting {
       : pieces_(pieces), links_(links), groups_(groups), poses_(std::move(poses)), options_(options) {}
 
   double odds() {
+    if (overlaps()) return 0.0;  // most do, and it shows soonest
     std::vector<Touching> contacts = between_groups();
-    if (contacts.size() <= links_.size() || overlaps()) return 0.0;
+    if (contacts.size() <= links_.size()) return 0.0;
     const std::size_t others = contacts.size();
     align(contacts);
     const bool steady = std::all_of(links_.begin(), links_.end(), [&](const Link& link) {
@@ -80,9 +81,8 @@ class Meeting {
   }
 
   bool overlaps() const {
-    return any_two([&](std::size_t a, std::size_t b) {
-      return overlap(pieces_[a], pieces_[b], relative(a, b)) > kMostOverlap;
-    });
+    return any_two(
+        [&](std::size_t a, std::size_t b) { return interpenetrate(pieces_[a], pieces_[b], relative(a, b)); });
   }
 
   /// The first group stays, as far as the others touch it; adds what holds the other groups together to the contacts.

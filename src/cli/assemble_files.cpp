@@ -173,9 +173,9 @@ std::vector<std::filesystem::path> write_assembly(const std::filesystem::path& f
     const assembly::Placement& placement = result.placements[k];
     if (placement.group < 0) continue;
     parts.push_back({input.names[k], &input.fragments[k].surface, placement.pose});
-    files.push_back(matrices / matrix_name(input.names[k], k));
-    write_file(files.back(), matrix_text(placement.pose));
+    write_file(matrices / matrix_name(input.names[k], k), matrix_text(placement.pose));
   }
+  files.push_back(matrices);
   files.push_back(folder / "assembled.mlp");
   write_file(files.back(), meshlab_project(input, result));
   for (const char* name : {"assembled.glb", "assembled.ply"}) {

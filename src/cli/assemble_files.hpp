@@ -26,7 +26,7 @@ std::string assembly_json(const AssembleInput& input, const assembly::Result& re
 std::string meshlab_project(const AssembleInput& input, const assembly::Result& result);
 
 /// assembled.glb, .ply, .mlp and .png, and a folder "cloudcompare" with a matrix a fragment.
-/// \return what was written
+/// \return what was written; of the matrices the folder
 /// \throws IoError
 std::vector<std::filesystem::path> write_assembly(const std::filesystem::path& folder,
                                                   const AssembleInput& input, const assembly::Result& result);
