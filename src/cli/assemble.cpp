@@ -75,7 +75,7 @@ class AssembleCommand final : public Command {
     console.end_progress();
     for (const std::string& warning : warnings_of(input, result)) console.warning(warning);
     if (result.cancelled) console.warning("interrupted; what follows is less than possible");
-    for (const auto& file : files) write_file(file, assembly_json(input, result));
+    for (const auto& file : files) write_file(file, assembly_json(input, options_.constraints, result));
     console.result(summary(input, result));
     for (const auto& file : files) console.result(fmt::format("wrote {}\n", file.string()));
     if (out_ && !result.cancelled) {

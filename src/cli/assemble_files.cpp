@@ -70,6 +70,24 @@ ordered_json joins_json(const AssembleInput& input, const assembly::Result& resu
   return joins;
 }
 
+/// As the user's file has them, and what became of them.
+ordered_json constraints_json(const std::vector<std::string>& names, const assembly::Constraints& constraints,
+                              const assembly::Result& result) {
+  const auto pairs = [&](const std::vector<std::pair<std::size_t, std::size_t>>& list) {
+    ordered_json json = ordered_json::array();
+    for (const auto& [a, b] : list) json.push_back({names[a], names[b]});
+    return json;
+  };
+  ordered_json poses = ordered_json::object();
+  for (const auto& [fragment, pose] : constraints.pinned) poses[names[fragment]] = to_json(pose);
+  ordered_json problems = ordered_json::array();
+  for (const std::string& warning : result.warnings) problems.push_back(with_names(warning, names));
+  return {{"must_join", pairs(constraints.must_join)},
+          {"must_not_join", pairs(constraints.must_not_join)},
+          {"poses", poses},
+          {"problems", problems}};
+}
+
 std::vector<report::PlacedFragment> placed_fragments(const AssembleInput& input,
                                                      const assembly::Result& result) {
   std::vector<report::PlacedFragment> placed;
@@ -109,7 +127,8 @@ std::vector<std::string> warnings_of(const AssembleInput& input, const assembly:
   return list;
 }
 
-std::string assembly_json(const AssembleInput& input, const assembly::Result& result) {
+std::string assembly_json(const AssembleInput& input, const assembly::Constraints& constraints,
+                          const assembly::Result& result) {
   ordered_json fragments = ordered_json::object();
   ordered_json unplaced = ordered_json::array();
   for (std::size_t k = 0; k < input.names.size(); ++k) {
@@ -134,6 +153,7 @@ std::string assembly_json(const AssembleInput& input, const assembly::Result& re
                   {"unplaced", unplaced},
                   {"groups", result.groups},
                   {"pairs_missing", input.remains.missing},
+                  {"constraints", constraints_json(input.names, constraints, result)},
                   {"warnings", warnings_of(input, result)},
                   {"interrupted", result.cancelled},
                   {"version", kVersion}});

@@ -20,7 +20,9 @@ std::string reason_of(const AssembleInput& input, const assembly::Result& result
 std::vector<std::string> warnings_of(const AssembleInput& input, const assembly::Result& result);
 
 /// "rejoin.assembly/1".
-std::string assembly_json(const AssembleInput& input, const assembly::Result& result);
+/// \param constraints  what the user asked for; it is told too
+std::string assembly_json(const AssembleInput& input, const assembly::Constraints& constraints,
+                          const assembly::Result& result);
 
 /// A MeshLab project of the scans' files at their poses.
 std::string meshlab_project(const AssembleInput& input, const assembly::Result& result);

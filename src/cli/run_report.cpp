@@ -66,6 +66,7 @@ class AssemblyReader {
     for (const auto& [name, value] : json["fragments"].items()) place(name, value);
     const ordered_json joins = json.value("joins", ordered_json::array());
     for (const ordered_json& join : joins) use(join);
+    if (json.contains("constraints")) tell_constraints(json["constraints"]);
     return change_;
   }
 
@@ -117,6 +118,33 @@ class AssemblyReader {
     pair.comparison = report::Comparison::Touches;
     pair.used = true;
     report_.pairs.push_back(std::move(pair));
+  }
+
+  /// What the user asked for, among the parameters, and what could not be kept of it.
+  void tell_constraints(const ordered_json& json) const {
+    if (!json.is_object()) refuse(path_, "\"constraints\" is no object");
+    for (const auto& [key, label] :
+         {std::pair("must_join", "must join"), {"must_not_join", "must not join"}}) {
+      std::string told;
+      const ordered_json pairs = json.value(key, ordered_json::array());
+      for (const ordered_json& pair : pairs) {
+        if (!pair.is_array() || pair.size() != 2)
+          refuse(path_, fmt::format("\"{}\" is no list of pairs", key));
+        told += fmt::format("{}{} + {}", told.empty() ? "" : ", ", name_of(pair[0]), name_of(pair[1]));
+      }
+      if (!told.empty()) report_.parameters.emplace_back(label, told);
+    }
+    std::string posed;
+    const ordered_json poses = json.value("poses", ordered_json::object());
+    for (const auto& [name, pose] : poses.items()) posed += (posed.empty() ? "" : ", ") + name_of(name);
+    if (!posed.empty()) report_.parameters.emplace_back("pose given", posed);
+    const ordered_json problems = json.value("problems", ordered_json::array());
+    for (const ordered_json& problem : problems)
+      if (problem.is_string()) report_.warnings.push_back(problem.get<std::string>());
+  }
+
+  const std::string& name_of(const ordered_json& name) const {
+    return report_.fragments[number_of(name)].name;
   }
 
   std::filesystem::path path_;
@@ -307,6 +335,7 @@ report::RunReport read_run(const std::filesystem::path& run, std::size_t listed,
     report.fragments.push_back(std::move(fragment));
   }
   add_pairs(report, database, numbers, listed);
+  add_parameters(report, database, folder);
   const std::filesystem::path assembly = folder / kAssemblyName;
   const store::Remains remains = store::remains(database);
   report.missing_pairs = remains.missing;
@@ -322,7 +351,6 @@ report::RunReport read_run(const std::filesystem::path& run, std::size_t listed,
   const std::string missing = store::told(remains);
   if (!missing.empty()) report.warnings.push_back(missing);
   add_reasons(report, not_placed, remains);
-  add_parameters(report, database, folder);
   read_scans(report, fragments, folder, console, context);
   return report;
 }

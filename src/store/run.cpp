@@ -115,6 +115,7 @@ Run Run::open(const fs::path& folder) {
   detail::guarded(access->path, [&] {
     access->database.emplace(detail::reading_address(file), SQLite::OPEN_READONLY | SQLite::OPEN_URI,
                              kPatience_ms);
+    access->database->exec("BEGIN");  // whatever is written from now on is not seen
     detail::require_schema(*access->database, access->path);
   });
   return Run(std::move(access));

@@ -21,7 +21,7 @@ inline constexpr const char* kFileName = "run.sqlite";
 /// The tables are described in docs/store.md.
 class Run {
  public:
-  /// Opens for reading what `rejoin batch` or `rejoin merge` wrote.
+  /// Opens for reading what `rejoin batch` or `rejoin merge` wrote, as it is at this moment: what others write later is not seen.
   /// \param folder  the run's folder, or the database file itself
   static Run open(const std::filesystem::path& folder);
 

@@ -78,6 +78,7 @@ TEST_F(BrokenBall, AssembleOfAFolderMatchesAndPutsItTogether) {
   ASSERT_EQ(again.exit_code, 0) << again.err;
   const ordered_json apart = ordered_json::parse(read_file(json_));
   EXPECT_EQ(apart["unplaced"], ordered_json({"fragment_00.ply"}));
+  EXPECT_EQ(apart["constraints"]["must_not_join"], ordered_json::parse(read_file(wishes))["must_not_join"]);
   EXPECT_TRUE(apart["fragments"]["fragment_00.ply"]["pose"].is_null());
   EXPECT_FALSE(apart["fragments"]["fragment_00.ply"]["reason"].get<std::string>().empty());
   EXPECT_EQ(read_file(out + "/run/assembly.json"), read_file(json_)) << "the page shows the last assembly";

@@ -142,6 +142,29 @@ TEST(Report, TellsThatTheAssemblyIsOlderThanThePairsAndTakesBackItsReasons) {
   EXPECT_NE(replaced.err.find("made with another scan of a.ply"), std::string::npos) << replaced.err;
 }
 
+TEST(Report, ShowsWhatTheUserAskedForAndWhatCouldNotBeKept) {
+  const PlantedRun run;
+  const std::string problem = "a.ply and gone.ply must join, but at none of their poses they fit";
+  const json assembly = {{"schema", "rejoin.assembly/1"},
+                         {"fragments", json::object()},
+                         {"constraints",
+                          {{"must_join", json::array({{"a.ply", "gone.ply"}, {"a.ply", "b.ply"}})},
+                           {"must_not_join", json::array()},
+                           {"poses", {{"b.ply", json::array()}}},
+                           {"problems", {problem}}}}};
+  run.assemble(assembly.dump());
+  const Finished finished = testing::run({"report", run.folder, "--pictures", "0"});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  const json data = data_of(read_file(run.page));
+  const json parameters = data["parameters"];
+  const auto has = [&](const json& row) {
+    return std::find(parameters.begin(), parameters.end(), row) != parameters.end();
+  };
+  EXPECT_TRUE(has({"must join", "a.ply + gone.ply, a.ply + b.ply"})) << parameters;
+  EXPECT_TRUE(has({"pose given", "b.ply"})) << parameters;
+  EXPECT_EQ(data["warnings"][0], problem);
+}
+
 TEST(Report, RefusesAnAssemblyThatIsNoneOfThisRun) {
   const PlantedRun run;
   for (const char* text :
@@ -149,7 +172,10 @@ TEST(Report, RefusesAnAssemblyThatIsNoneOfThisRun) {
         R"({"schema": "rejoin.assembly/1", "fragments": {"other.ply": {"group": 0}}})",
         R"({"schema": "rejoin.assembly/1", "fragments": {"a.ply": {"group": "x"}}})",
         R"({"schema": "rejoin.assembly/1", "fragments": {"a.ply": {"group": 0, "pose": [[1]]}}})",
-        R"({"schema": "rejoin.assembly/1", "fragments": {}, "joins": [{"a": 1, "b": 2}]})"}) {
+        R"({"schema": "rejoin.assembly/1", "fragments": {}, "joins": [{"a": 1, "b": 2}]})",
+        R"({"schema": "rejoin.assembly/1", "fragments": {}, "constraints": [5]})",
+        R"({"schema": "rejoin.assembly/1", "fragments": {}, "constraints": {"must_join": 5}})",
+        R"({"schema": "rejoin.assembly/1", "fragments": {}, "constraints": {"poses": ["a.ply"]}})"}) {
     run.assemble(text);
     const Finished finished = testing::run({"report", run.folder});
     EXPECT_EQ(finished.exit_code, 1) << text;

@@ -187,6 +187,19 @@ TEST_F(RunTest, SecondWriterIsRefusedAndReadersAreNot) {
   EXPECT_EQ(store::Run::open(folder_).pairs().size(), 1U);
 }
 
+TEST_F(RunTest, ReaderSeesWhatWasThereWhenItOpened) {
+  make_run();
+  const store::Run reader = store::Run::open(folder_);
+  {
+    store::Run writer = store::Run::write(folder_);
+    writer.save(pair_of(writer.fragments(), 1, 2), {candidate_});
+    writer.begin(kParameters, {three_[0], three_[1]});
+  }
+  EXPECT_EQ(reader.fragments().size(), 3U);
+  EXPECT_EQ(reader.pairs().size(), 1U);
+  EXPECT_EQ(store::Run::open(folder_).fragments().size(), 2U);
+}
+
 TEST_F(RunTest, OtherFilesAreRefused) {
   EXPECT_THROW(store::Run::open(folder_), StoreError) << "nothing there";
   std::ofstream(folder_ / kFileName) << "Dear diary, this is no database, but it is longer than a header.";

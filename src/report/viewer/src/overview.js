@@ -2,6 +2,8 @@
 import {h, nameElement} from './dom.js';
 import {counted, percent} from './numbers.js';
 
+const LIKELY = 0.5;  // confidence from which a place is more likely right than wrong
+
 /** @param choose (index) shows a fragment in 3D */
 export function overview(data, choose) {
   const placed = data.fragments.filter((fragment) => fragment.pose);
@@ -32,9 +34,14 @@ function button(data, index, choose, limit = 32) {
   return h('button', {type: 'button', class: 'link', onclick: () => choose([index])}, nameElement(data.fragments[index].name, {limit}));
 }
 
+function allPlaced(unsure) {
+  if (unsure.length === 0) return h('p', {class: 'good'}, 'Every fragment has its place.');
+  return h('p', {}, `Every fragment has a place, ${unsure.length.toLocaleString('en')} of them with a confidence below ${percent(LIKELY)}: look at their joins.`);
+}
+
 function missing(data, choose) {
   const loose = [...data.fragments.keys()].filter((index) => !data.fragments[index].pose);
-  if (loose.length === 0) return h('p', {class: 'good'}, 'Every fragment has its place.');
+  if (loose.length === 0) return allPlaced(data.fragments.filter(({confidence}) => confidence !== null && confidence < LIKELY));
   return h(
     'div',
     {class: 'missing'},
