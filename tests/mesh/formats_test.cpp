@@ -201,6 +201,25 @@ TEST(Ply, ReadsBigEndian) {
   EXPECT_NEAR(surface_area(mesh), 6, 1e-6);
 }
 
+TEST(Ply, ReadsStripsOfTriangles) {
+  const TemporaryFolder folder;
+  const auto path = folder.write(
+      "a.ply",
+      "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+      "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n9 0 1 2 3 4 -1 4 3 2\n");
+  const Mesh mesh = load(path).mesh;  // a folded strip's last triangle is the third one's other side
+  double up = 0;
+  double down = 0;
+  for (const glm::uvec3& face : mesh.faces) {
+    const glm::vec3& a = mesh.vertices[face.x];
+    const float z = 0.5F * glm::cross(mesh.vertices[face.y] - a, mesh.vertices[face.z] - a).z;
+    (z > 0 ? up : down) += z;
+  }
+  EXPECT_EQ(up, 1.5);
+  EXPECT_EQ(down, -0.5);
+}
+
 TEST(Ply, CutsAConcavePolygonAlongItsInside) {
   const TemporaryFolder folder;
   // An L of area 3: a fan from its first corner would cover area outside of it.

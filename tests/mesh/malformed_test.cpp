@@ -128,7 +128,10 @@ TEST_F(Malformed, PlyHeaders) {
 TEST_F(Malformed, NumbersThatAreNone) {
   expect("a.ply", ply("ascii", 3, 1) + "0 0 0\n1 zero 0\n0 1 0\n3 0 1 2\n", Kind::Input,
          "vertex 1: \"zero\" is not a number");
-  expect("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1,5 0\nf 1 2 3\n", Kind::Input, "line 3: \"1,5\" is not a number");
+  expect("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1,5 0\nf 1 2 3\n", Kind::Input,
+         "line 3: \"1,5\" is not a number; export the scan with points as decimal marks");
+  expect("b.ply", ply("ascii", 3, 1) + "0 0 0\n1,5 0 0\n0 1 0\n3 0 1 2\n", Kind::Input,
+         "vertex 1: \"1,5\" is not a number; export the scan with points as decimal marks");
   expect("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1\nf 1 2 3\n", Kind::Input, "line 3: three numbers expected");
   expect("c.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 x\n", Kind::Input, "line 4: \"x\" is not a vertex index");
   expect("d.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\n", Kind::Input, "line 4: a face of 2 corners");
@@ -153,9 +156,15 @@ TEST_F(Malformed, IndicesOutOfRange) {
          "face 1 refers to a vertex that does not exist");
   expect("b.ply", ply("ascii", 3, 1) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n", Kind::Input,
          "face 0 refers to a vertex");
-  expect("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", Kind::Input, "face 0 refers to a vertex");
-  expect("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n", Kind::Input, "face 0 refers to a vertex");
-  expect("c.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n", Kind::Input, "face 0 refers to a vertex");
+  expect("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\n", Kind::Input,
+         "line 5: a face refers to a vertex that does not exist (there are 3)");
+  expect("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n", Kind::Input, "line 4: a face refers to a vertex");
+  expect("c.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n", Kind::Input, "line 4: a face refers to a vertex");
+  expect("c.ply",
+         "ply\nformat ascii 1.0\nelement vertex 3\n" + kVertexHeader +
+             "element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 "
+             "0 1 3\n",
+         Kind::Input, "face 0 refers to a vertex");
   expect("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n", Kind::Input, "face 0 refers to a vertex");
 }
 

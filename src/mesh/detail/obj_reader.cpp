@@ -25,6 +25,7 @@ class ObjReader {
         read_face();
       }
     }
+    check_corners();
     assign_normals();
     if (coloured_ == soup_.points.size()) {
       soup_.colours = std::move(colours_);
@@ -68,6 +69,20 @@ class ObjReader {
     }
     if (size < 3) lines_.fail(fmt::format("a face of {} corners", size));
     soup_.sizes.push_back(size);
+    face_lines_.push_back(static_cast<std::uint32_t>(lines_.number()));
+  }
+
+  /// Vertices may come after the faces that name them.
+  void check_corners() const {
+    std::size_t corner = 0;
+    for (std::size_t face = 0; face < soup_.sizes.size(); ++face) {
+      for (std::uint32_t k = 0; k < soup_.sizes[face]; ++k, ++corner) {
+        if (soup_.corners[corner] < soup_.points.size()) continue;
+        lines_.fail_at(
+            face_lines_[face],
+            fmt::format("a face refers to a vertex that does not exist (there are {})", soup_.points.size()));
+      }
+    }
   }
 
   /// One normal a vertex: the sum over its corners; of a cloud, the normal of the same number.
@@ -89,6 +104,7 @@ class ObjReader {
   std::vector<glm::vec3> normals_;
   std::vector<glm::u8vec3> colours_;
   std::vector<std::uint32_t> corner_normals_;
+  std::vector<std::uint32_t> face_lines_;
   std::size_t coloured_ = 0;
 };
 

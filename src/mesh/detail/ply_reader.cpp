@@ -30,8 +30,8 @@ struct Place {
         fmt::format("ends in {} {} of the {} that its header promises", element->name, index, element->count),
         "copy or export the file again");
   }
-  [[noreturn]] void invalid(const std::string& problem) const {
-    throw InputError(*file, fmt::format("{} {}: {}", element->name, index, problem), "export the scan again");
+  [[noreturn]] void invalid(const std::string& problem, const char* mend = "export the scan again") const {
+    throw InputError(*file, fmt::format("{} {}: {}", element->name, index, problem), mend);
   }
 };
 
@@ -98,7 +98,8 @@ class AsciiValues {
         (end != end_ && std::isspace(static_cast<unsigned char>(*end)) == 0)) {
       const char* stop =
           std::find_if(at_, std::min(end_, at_ + 20), [](unsigned char c) { return std::isspace(c) != 0; });
-      place.invalid(fmt::format("\"{}\" is not a number", std::string_view(at_, stop)));
+      const std::string_view word(at_, stop);
+      place.invalid(fmt::format("\"{}\" is not a number", word), mend_of_number(word));
     }
     at_ = end;
     return value;
@@ -213,6 +214,26 @@ void read_faces(Values& values, const Place& place, Soup& soup) {
       });
 }
 
+/// Strips of triangles, as old scanners wrote them: each corner makes one with the two before it, every second turned round; a
+/// negative index begins a new strip.
+template <class Values>
+void read_strips(Values& values, const Place& place, Soup& soup) {
+  const int corners = place.element->find("vertex_indices");
+  read_element(
+      values, place, [](const std::vector<double>&) {},
+      [&](std::size_t property, const std::vector<double>& items) {
+        if (static_cast<int>(property) != corners) return;
+        std::size_t first = 0;  // of the strip
+        for (std::size_t k = 0; k < items.size(); ++k) {
+          if (items[k] < 0) first = k + 1;
+          if (items[k] < 0 || k < first + 2) continue;
+          const std::size_t turned = (k - first) % 2;
+          soup.add_triangle(to_index(items[k - 2 + turned]), to_index(items[k - 1 - turned]),
+                            to_index(items[k]));
+        }
+      });
+}
+
 /// The header's promise against the bytes that are there, before memory is asked for.
 void check_promise(const Source& source, const PlyHeader& header) {
   const std::size_t body = source.bytes.size() - header.body;
@@ -240,6 +261,8 @@ Soup read_body(const Source& source, const PlyHeader& header, Values values) {
       read_vertices(values, place, soup);
     } else if (element.name == "face") {
       read_faces(values, place, soup);
+    } else if (element.name == "tristrips") {
+      read_strips(values, place, soup);
     } else if (!element.properties.empty()) {
       read_element(
           values, place, [](const std::vector<double>&) {}, [](std::size_t, const std::vector<double>&) {});

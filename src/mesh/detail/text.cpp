@@ -35,6 +35,14 @@ std::optional<double> to_number(std::string_view word) {
   return parse<double>(word);
 }
 
+const char* mend_of_number(std::string_view word) {
+  std::string point(word);
+  const std::size_t comma = point.find(',');
+  if (comma != std::string::npos) point[comma] = '.';
+  return comma != std::string::npos && to_number(point) ? "export the scan with points as decimal marks"
+                                                        : "export the scan again";
+}
+
 std::optional<long long> to_integer(std::string_view word) {
   return parse<long long>(word);
 }
@@ -75,7 +83,11 @@ std::optional<double> TextLines::next_number() {
   const std::string_view word = next_word();
   if (word.empty()) return std::nullopt;
   const std::optional<double> value = to_number(word);
-  if (!value) fail(fmt::format("\"{}\" is not a number", word.substr(0, 20)));
+  if (!value) {
+    throw InputError(source_.name,
+                     fmt::format("line {}: \"{}\" is not a number", number_, word.substr(0, 20)),
+                     mend_of_number(word));
+  }
   return value;
 }
 
@@ -89,8 +101,8 @@ glm::dvec3 TextLines::next_triple() {
   return triple;
 }
 
-void TextLines::fail(const std::string& problem) const {
-  throw InputError(source_.name, fmt::format("line {}: {}", number_, problem), "export the scan again");
+void TextLines::fail_at(std::size_t line, const std::string& problem) const {
+  throw InputError(source_.name, fmt::format("line {}: {}", line, problem), "export the scan again");
 }
 
 }  // namespace rejoin::mesh::detail

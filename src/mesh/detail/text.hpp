@@ -30,7 +30,8 @@ class TextLines {
   std::size_t number() const { return number_; }
 
   /// \throws InputError with the file and this line
-  [[noreturn]] void fail(const std::string& problem) const;
+  [[noreturn]] void fail(const std::string& problem) const { fail_at(number_, problem); }
+  [[noreturn]] void fail_at(std::size_t line, const std::string& problem) const;
 
  private:
   const Source& source_;
@@ -42,6 +43,9 @@ class TextLines {
 
 /// A whole word as a floating-point number ("nan" and "inf" included).
 std::optional<double> to_number(std::string_view word);
+
+/// What to do about a word that is no number.
+const char* mend_of_number(std::string_view word);
 
 /// A whole word as an integer.
 std::optional<long long> to_integer(std::string_view word);
