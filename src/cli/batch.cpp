@@ -63,11 +63,11 @@ class BatchCommand final : public Command {
     const auto begin = std::chrono::steady_clock::now();
     const batch::Summary summary = batch::run(inputs_, out_, options_, *listener, context);
     console.end_progress();
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    const double seconds = seconds_since(begin);
     if (json_) {
       tell_end_as_json(console, summary);
     } else {
-      console.result(text_of(summary, seconds.count()));
+      console.result(text_of(summary, seconds));
     }
     return tell_end(console, summary);
   }

@@ -53,4 +53,8 @@ void Console::end_progress() {
   bar_drawn_ = false;
 }
 
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
 }  // namespace rejoin::cli

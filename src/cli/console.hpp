@@ -39,4 +39,6 @@ class Console {
   std::chrono::steady_clock::time_point last_drawn_;
 };
 
+double seconds_since(std::chrono::steady_clock::time_point begin);
+
 }  // namespace rejoin::cli

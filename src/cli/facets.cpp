@@ -72,7 +72,8 @@ std::string facets_json(const match::Fragment& fragment) {
                              {"diameter", fragment.diameter},
                              {"noise", fragment.noise},
                              {"wall_thickness", fragment.facets.wall_thickness},
-                             {"facets", list}};
+                             {"facets", list},
+                             {"warnings", fragment.warnings}};
   return text_of(json);
 }
 

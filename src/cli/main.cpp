@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <string>
 #include <vector>
 
+#include "cli/arguments.hpp"
 #include "cli/command.hpp"
 #include "cli/help.hpp"
 #include "cli/interrupt.hpp"
@@ -78,7 +80,7 @@ void add_common(CLI::App& root, Common& common) {
       ->group("Everywhere");
   root.add_option("--threads", common.threads, "threads to use (default: all cores)")
       ->type_name("N")
-      ->check(CLI::Range(0, 1024).description(""))
+      ->check(whole_in_range(0, 1024))
       ->group("Everywhere");
   root.add_flag("--quiet", common.quiet, "only warnings and errors, no results")->group("Everywhere");
   root.add_flag("--verbose", common.verbose, "tell on stderr what takes how long")->group("Everywhere");
@@ -111,7 +113,12 @@ std::string unexpected(const std::vector<std::string>& words, const CLI::App& ap
                        const std::string& command) {
   const auto option = std::find_if(words.begin(), words.end(),
                                    [](const std::string& word) { return word.size() > 1 && word[0] == '-'; });
-  if (option != words.end()) return fmt::format("{} is no option of {}", *option, command);
+  if (option != words.end()) {
+    std::error_code ignored;
+    const bool is_file = std::filesystem::exists(*option, ignored);
+    return fmt::format("{} is no option of {}{}", *option, command,
+                       is_file ? fmt::format(" (the file is ./{})", *option) : "");
+  }
   const std::vector<const CLI::App*> known = visible_subcommands(app);
   if (known.empty()) return fmt::format("'{}' is one argument more than {} takes", words.front(), command);
   std::string names;

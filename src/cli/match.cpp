@@ -124,8 +124,8 @@ class MatchCommand final : public Command {
     result.warnings.insert(result.warnings.begin(), told.begin(), told.end());
     if (result.cancelled) console.warning("interrupted; what follows is the best so far");
     tell_times(console, a, b, result);
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-    if (json_) write_file(*json_, match_json(a, b, options, result, seconds.count()));
+    const double seconds = seconds_since(begin);
+    if (json_) write_file(*json_, match_json(a, b, options, result, seconds));
     console.result(summary(result));
     if (json_) console.result(fmt::format("wrote {}\n", *json_));
     if (out_) write_folder(console, a, b, result);

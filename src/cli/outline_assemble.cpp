@@ -19,12 +19,6 @@
 namespace rejoin::cli {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
 std::string summary(const std::vector<outline::Piece>& pieces, const outline::Assembly& assembly) {
   std::vector<std::size_t> sizes;
   for (const outline::Placement& placement : assembly.placements) {
@@ -63,7 +57,7 @@ class OutlineAssembleCommand final : public Command {
   }
 
   ExitCode run(Console& console, Context& context) override {
-    const Clock::time_point begin = Clock::now();
+    const auto begin = std::chrono::steady_clock::now();
     outline::MultiscaleOptions multiscale;
     apply_calibration(calibration_, method_, multiscale);
     if (json_) require_writable_file(*json_);

@@ -69,15 +69,18 @@ class OutlineMatchCommand final : public Command {
     if (json_) require_writable_file(*json_);
     if (out_) require_writable_folder(*out_);
     const std::vector<outline::Piece> pieces{load_piece(path_a_, console), load_piece(path_b_, console)};
+    console.detail(fmt::format("read both pieces in {:.2f} s", seconds_since(begin)));
     const std::unique_ptr<outline::Matcher> matcher = make_matcher(method_, multiscale);
     context.report("comparing outlines", 0.0);
     matcher->prepare(pieces);
     const outline::PairResult result = matcher->match(0, 1, context);
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    const double seconds = seconds_since(begin);
     console.end_progress();
+    console.detail(fmt::format("compared by {} after {:.2f} s, {} candidates", name_of(method_), seconds,
+                               result.candidates.size()));
     if (context.cancelled()) console.warning("interrupted; what follows is the best so far");
     if (json_) {
-      const OutlineSearch search{name_of(method_), seconds.count(), context.cancelled()};
+      const OutlineSearch search{name_of(method_), seconds, context.cancelled()};
       write_file(*json_, outline_match_json(pieces[0], pieces[1], result, search));
     }
     console.result(summary(pieces[0], pieces[1], result));

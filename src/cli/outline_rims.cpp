@@ -59,10 +59,10 @@ ExitCode match_rims(const std::string& path_a, const std::string& path_b,
   const match::Fragment b = load_fragment(path_b, console, context);
   const auto begin = std::chrono::steady_clock::now();
   const std::vector<rims::Proposal> proposals = rims::propose(a, b, {}, context);
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  const double seconds = seconds_since(begin);
   console.end_progress();
   if (context.cancelled()) console.warning("interrupted; what follows is the best so far");
-  if (json) write_file(*json, proposals_json(a, b, proposals, seconds.count(), context.cancelled()));
+  if (json) write_file(*json, proposals_json(a, b, proposals, seconds, context.cancelled()));
   console.result(summary(proposals));
   if (json) console.result(fmt::format("wrote {}\n", *json));
   return context.cancelled() ? kInterrupted : kDone;

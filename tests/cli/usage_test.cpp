@@ -73,6 +73,7 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUse{"LargeResolution", {"match", "a.ply", "b.ply", "--resolution", "4096"}, "8 to 2048"},
         WrongUse{"NoChains", {"match", "a.ply", "b.ply", "--chains", "0"}, "1 to 256"},
         WrongUse{"NegativeThreads", {"match", "a.ply", "b.ply", "--threads", "-2"}, "--threads"},
+        WrongUse{"ThreadsInWords", {"info", "--threads", "two"}, "'two' is no whole number from 0 to 1024"},
         WrongUse{"UnknownBackend", {"match", "a.ply", "b.ply", "--backend", "voodoo"}, "raster"},
         WrongUse{"UnknownSearch",
                  {"match", "a.ply", "b.ply", "--search", "luck"},
