@@ -29,6 +29,13 @@ struct PairOfIndices {
   std::size_t b;
 };
 
+template <class Visit>
+void for_each_pair(const Tile& tile, const Visit& visit) {
+  for (std::size_t a = tile.a_first; a < tile.a_last; ++a) {
+    for (std::size_t b = std::max(a + 1, tile.b_first); b < tile.b_last; ++b) visit(PairOfIndices{a, b});
+  }
+}
+
 /// The work of one call of run(), with what it needs at hand.
 class Work {
  public:
@@ -83,14 +90,7 @@ class Work {
                                       shard.count > 1 ? fmt::format("{}/{}", shard.number, shard.count) : "");
     if (options_.retry) run_.forget_failures();
     for (const store::Fragment& fragment : run_.fragments()) fragments_[fragment.name] = fragment;
-    for (const store::Run::Done& pair : run_.done()) {
-      done_.emplace(pair.a, pair.b);
-      progress_.failed += pair.failed ? 1 : 0;
-    }
-    for (const Tile& tile : tiles_) progress_.total += tile.pairs();
-    progress_.done = done_.size();
-    if (progress_.done == progress_.total) progress_.seconds_left = 0.0;
-    done_before_ = done_.size();
+    count_done();
     listener_.on_start(forgotten, progress_);
     for (const auto& [copy, first] : copies_) {
       if (fragments_.count(copy) == 0) continue;
@@ -100,6 +100,24 @@ class Work {
       if (fragment.state == store::FragmentState::Bad) listener_.on_fragment(fragment, progress_);
     }
     warn_of_sizes();
+  }
+
+  /// Of this shard's pairs alone: with other scans in the folder the shard was another one, and what it did then is kept too.
+  void count_done() {
+    std::set<std::pair<std::int64_t, std::int64_t>> failed;
+    for (const store::Run::Done& pair : run_.done()) {
+      (pair.failed ? failed : done_).emplace(pair.a, pair.b);
+    }
+    done_.insert(failed.begin(), failed.end());
+    for (const Tile& tile : tiles_) {
+      for_each_pair(tile, [&](const PairOfIndices& pair) {
+        ++progress_.total;
+        progress_.done += done_.count(ids_of(pair));
+        progress_.failed += failed.count(ids_of(pair));
+      });
+    }
+    if (progress_.done == progress_.total) progress_.seconds_left = 0.0;
+    done_before_ = progress_.done;
   }
 
   /// Once of each scan, as soon as sizes are known.
@@ -164,13 +182,14 @@ class Work {
 
   std::vector<PairOfIndices> pending_of(const Tile& tile) const {
     std::vector<PairOfIndices> pending;
-    for (std::size_t a = tile.a_first; a < tile.a_last; ++a) {
-      for (std::size_t b = std::max(a + 1, tile.b_first); b < tile.b_last; ++b) {
-        const std::pair ids(fragments_.at(names_[a]).id, fragments_.at(names_[b]).id);
-        if (done_.find(ids) == done_.end()) pending.push_back({a, b});
-      }
-    }
+    for_each_pair(tile, [&](const PairOfIndices& pair) {
+      if (done_.count(ids_of(pair)) == 0) pending.push_back(pair);
+    });
     return pending;
+  }
+
+  std::pair<std::int64_t, std::int64_t> ids_of(const PairOfIndices& pair) const {
+    return {fragments_.at(names_[pair.a]).id, fragments_.at(names_[pair.b]).id};
   }
 
   void do_pair(const PairOfIndices& indices) {

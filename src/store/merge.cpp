@@ -1,11 +1,14 @@
 #include "store/merge.hpp"
 
+#include <SQLiteCpp/Backup.h>
 #include <fmt/format.h>
 
 #include <map>
 #include <string>
 
 #include "core/files.hpp"
+#include "core/words.hpp"
+#include "store/detail/lock.hpp"
 #include "store/detail/rows.hpp"
 #include "store/detail/schema.hpp"
 #include "store/run.hpp"
@@ -21,6 +24,15 @@ INSERT OR REPLACE INTO main.pair (a, b, stage, evidence, score, verdict, seconds
   FROM part.pair p
   JOIN part.fragment u ON u.id = p.a JOIN main.fragment x ON x.name = u.name
   JOIN part.fragment v ON v.id = p.b JOIN main.fragment y ON y.name = v.name
+)sql";
+
+/// Pairs of the attached run that ours lacks, by the fragments' names.
+constexpr const char* kCountLost = R"sql(
+SELECT count(*) FROM part.pair p
+  JOIN part.fragment u ON u.id = p.a JOIN part.fragment v ON v.id = p.b
+  WHERE NOT EXISTS (SELECT 1 FROM main.pair q
+    JOIN main.fragment x ON x.id = q.a JOIN main.fragment y ON y.id = q.b
+    WHERE x.name = u.name AND y.name = v.name)
 )sql";
 
 std::string copy_candidates() {
@@ -95,17 +107,38 @@ Merged count(SQLite::Database& database) {
           number("SELECT count(*) FROM pair WHERE stage = 'failed'")};
 }
 
-/// Puts the new database in the place of the old one, whose journal must not be taken for the new one's.
-void put_in_place(const fs::path& part, const fs::path& output) {
-  { const Run settled = Run::write(output); }
-  std::error_code problem;
-  fs::rename(part / kFileName, output / kFileName, problem);
-  if (problem) {
-    throw StoreError((output / kFileName).string(),
-                     fmt::format("cannot be put in place ({})", problem.message()),
-                     "check the folder and its permissions");
-  }
-  fs::remove_all(part, problem);
+/// \return pairs of the output's own database, if it has one, that the whole would not have
+std::size_t lost_pairs(SQLite::Database& whole, const fs::path& output) {
+  std::error_code ignored;
+  const fs::path file = output / kFileName;
+  if (!fs::exists(file, ignored)) return 0;
+  { const Run usable = Run::open(output); }
+  SQLite::Statement attach(whole, "ATTACH ? AS part");
+  attach.bind(1, detail::reading_address(file));
+  attach.exec();
+  const auto lost = static_cast<std::size_t>(whole.execAndGet(kCountLost).getInt64());
+  whole.exec("DETACH part");
+  return lost;
+}
+
+void require_nothing_lost(SQLite::Database& whole, const fs::path& output) {
+  const std::size_t lost = lost_pairs(whole, output);
+  if (lost == 0) return;
+  throw StoreError(
+      (output / kFileName).string(),
+      fmt::format("holds {} that the given runs do not", counted(lost, "pair")),
+      "give another folder, name this one among the runs too, or remove it if it is out of date");
+}
+
+/// Makes the output's database a copy of the new one, as one transaction: who reads it meanwhile goes on reading the old content.
+void put_in_place(const fs::path& made, const fs::path& output) {
+  const std::string path = (output / kFileName).string();
+  detail::guarded(path, [&] {
+    SQLite::Database source(made.string(), SQLite::OPEN_READONLY);
+    SQLite::Database target(path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, detail::kPatience_ms);
+    target.exec("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL");
+    SQLite::Backup(target, source).executeStep(-1);
+  });
 }
 
 }  // namespace
@@ -113,6 +146,7 @@ void put_in_place(const fs::path& part, const fs::path& output) {
 Merged merge(const std::vector<fs::path>& runs, const fs::path& output) {
   const Whole whole = survey(runs);
   require_writable_folder(output);
+  const detail::WriteLock lock((output / detail::kLockName).string());
   const fs::path part = output / "merge.part";
   std::error_code ignored;
   fs::remove_all(part, ignored);
@@ -124,9 +158,11 @@ Merged merge(const std::vector<fs::path>& runs, const fs::path& output) {
     database.exec("PRAGMA foreign_keys = ON");
     for (const fs::path& folder : runs) copy_pairs(database, folder);
     detail::remove_pairs_of_copies(database);
+    require_nothing_lost(database, output);
     return count(database);
   });
-  put_in_place(part, output);
+  put_in_place(path, output);
+  fs::remove_all(part, ignored);
   return merged;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <optional>
 
@@ -21,8 +22,6 @@ struct Run::Access {
 };
 
 namespace {
-
-constexpr int kPatience_ms = 60000;  // while a reader's checkpoint or a copy holds the file
 
 Parameters read_parameters(SQLite::Database& database) {
   SQLite::Statement row(database, "SELECT version, parameters, seed FROM run");
@@ -78,6 +77,18 @@ void require_shard(SQLite::Database& database, const std::string& shard, const s
                    fmt::format("give shard {} a folder of its own", shard));
 }
 
+/// A folder of other scans by mistake would empty the run.  A shard may get all others, when scans came or went.
+void require_some_known(SQLite::Database& database, const std::map<std::string, Fragment>& wanted,
+                        const std::string& shard, const std::string& path) {
+  if (!shard.empty() || !has_pairs(database)) return;
+  const std::vector<Fragment> known = detail::all_fragments(database);
+  const auto is_wanted = [&wanted](const Fragment& fragment) { return wanted.count(fragment.name) != 0; };
+  if (std::any_of(known.begin(), known.end(), is_wanted)) return;
+  throw StoreError(path,
+                   fmt::format("is of other scans: {} and {} more", known.front().name, known.size() - 1),
+                   "give the folder of those scans, or another --out");
+}
+
 /// Removes what is no longer wanted, and takes what stays off `wanted`.
 /// \return names of what was removed
 std::vector<std::string> forget_changed(SQLite::Database& database, std::map<std::string, Fragment>& wanted) {
@@ -114,7 +125,7 @@ Run Run::open(const fs::path& folder) {
   }
   detail::guarded(access->path, [&] {
     access->database.emplace(detail::reading_address(file), SQLite::OPEN_READONLY | SQLite::OPEN_URI,
-                             kPatience_ms);
+                             detail::kPatience_ms);
     access->database->exec("BEGIN");  // whatever is written from now on is not seen
     detail::require_schema(*access->database, access->path);
   });
@@ -124,9 +135,10 @@ Run Run::open(const fs::path& folder) {
 Run Run::write(const fs::path& folder) {
   auto access = std::make_unique<Access>();
   access->path = (folder / kFileName).string();
-  access->lock.emplace((folder / "lock").string());
+  access->lock.emplace((folder / detail::kLockName).string());
   detail::guarded(access->path, [&] {
-    access->database.emplace(access->path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, kPatience_ms);
+    access->database.emplace(access->path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
+                             detail::kPatience_ms);
     SQLite::Database& database = *access->database;
     database.exec("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON");
     detail::make_tables(database);
@@ -203,14 +215,15 @@ Run::Forgotten Run::begin(const Parameters& parameters, const std::vector<Fragme
     SQLite::Database& database = *access_->database;
     SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
     require_shard(database, shard, access_->path);
+    std::map<std::string, Fragment> wanted;
+    for (const Fragment& fragment : fragments) wanted[fragment.name] = fragment;
+    require_some_known(database, wanted, shard, access_->path);
     Forgotten forgotten;
     if (read_parameters(database) != parameters) {
       forgotten.parameters = has_pairs(database);
       database.exec("DELETE FROM pair");
     }
     write_parameters(database, parameters, shard);
-    std::map<std::string, Fragment> wanted;
-    for (const Fragment& fragment : fragments) wanted[fragment.name] = fragment;
     forgotten.fragments = forget_changed(database, wanted);
     for (const auto& [name, fragment] : wanted) add_fragment(database, fragment);
     detail::remove_pairs_of_copies(database);

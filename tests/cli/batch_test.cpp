@@ -226,6 +226,20 @@ TEST_F(Batch, ShardsMergedAreTheWhole) {
       << "holds shard 1/3";
 }
 
+TEST_F(Batch, ShardOfAFolderThatChangedCountsItsOwnPairsAlone) {
+  make_scans(folder_ / "scans");
+  const auto third = match::testing::planted_pair(9, kCells);
+  mesh::save(folder_ / "scans/c1.ply", third.a);
+  mesh::save(folder_ / "scans/c2.ply", third.b);
+  ASSERT_EQ(run({"batch", folder_ / "scans", "--out", run_, "--shard", "1/2"}).exit_code, 0);
+  const int before = pairs_in(run_);
+  fs::remove(folder_ / "scans/c2.ply");
+  const Finished finished = run({"batch", folder_ / "scans", "--out", run_, "--shard", "1/2"});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_NE(finished.out.find(", 3 of 3 pairs done, 0 of them now"), std::string::npos) << finished.out;
+  EXPECT_GT(pairs_in(run_), 3) << "pairs of " << before << " that the shard had of the larger folder";
+}
+
 TEST_F(Batch, SameScanUnderTwoNamesIsToldAndLeftOutByWholeRunsAndShards) {
   make_scans(folder_ / "scans");
   fs::copy_file(folder_ / "scans/b7.ply", folder_ / "scans/a9.ply");

@@ -85,11 +85,36 @@ TEST_F(Merge, PairThatTwoShardsHaveIsTakenOnce) {
   EXPECT_EQ(store::Run::open(output()).candidates(1, 2).size(), 2U);
 }
 
-TEST_F(Merge, WholeReplacesWhatWasThere) {
-  merge({shard("x", {"a", "b"}, 0.5)}, output());
-  merge({shard("y", {"c", "d"}, 0.5)}, output());
-  EXPECT_EQ(store::Run::open(output()).pairs().at(0).name_a, "c");
+TEST_F(Merge, WholeReplacesWhatWasThereButLosesNoPair) {
+  const fs::path x = shard("x", {"a", "b"}, 0.5);
+  const fs::path y = shard("y", {"c", "d"}, 0.5);
+  merge({x}, output());
+  merge({x, y}, output());
+  EXPECT_EQ(store::Run::open(output()).pairs().size(), 2U);
   EXPECT_FALSE(fs::exists(output() / "merge.part"));
+  EXPECT_THROW(merge({y}, output()), StoreError);
+  EXPECT_EQ(store::Run::open(output()).pairs().size(), 2U);
+}
+
+TEST_F(Merge, ReaderGoesOnReadingTheOldWholeAndTheNewOneStays) {
+  const fs::path x = shard("x", {"a", "b"}, 0.5);
+  merge({x}, output());
+  {
+    // Writes go to the journal, which stays as long as there is a reader.
+    const store::Run reader = store::Run::open(output());
+    store::Run::write(output()).begin(kParameters, reader.fragments());
+    merge({x, shard("y", {"c", "d"}, 0.5)}, output());
+    EXPECT_EQ(reader.pairs().size(), 1U);
+    EXPECT_EQ(store::Run::open(output()).pairs().size(), 2U);
+  }
+  EXPECT_EQ(store::Run::open(output()).pairs().size(), 2U);
+}
+
+TEST_F(Merge, OutputThatAnotherProcessWritesIsRefused) {
+  const fs::path x = shard("x", {"a", "b"}, 0.5);
+  merge({x}, output());
+  const store::Run writer = store::Run::write(output());
+  EXPECT_THROW(merge({x}, output()), StoreError);
 }
 
 TEST_F(Merge, WholeCanBeOneOfItsParts) {

@@ -144,6 +144,15 @@ TEST_F(RunTest, GoneFragmentLosesItsPairs) {
   EXPECT_TRUE(run.done().empty());
 }
 
+TEST_F(RunTest, OtherScansAltogetherAreRefusedSoThatNoPairIsLost) {
+  make_run();
+  store::Run run = store::Run::write(folder_);
+  EXPECT_THROW(run.begin(kParameters, {fragment("x.ply", "11"), fragment("y.ply", "22")}), StoreError);
+  EXPECT_EQ(run.done().size(), 1U);
+  run.begin(kParameters, {fragment("a.ply", "44"), fragment("y.ply", "22")});
+  EXPECT_TRUE(run.done().empty()) << "a.ply was scanned again";
+}
+
 TEST_F(RunTest, ChangedParametersForgetAllPairs) {
   make_run();
   store::Run run = store::Run::write(folder_);

@@ -5,6 +5,9 @@
 
 namespace rejoin::store::detail {
 
+/// The lock's file in the run's folder.
+inline constexpr const char* kLockName = "lock";
+
 /// Holds RUN/lock while it lives.  The system lets go of it when the process ends, however it ends.
 class WriteLock {
  public:

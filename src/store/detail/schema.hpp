@@ -13,6 +13,9 @@ namespace rejoin::store::detail {
 /// Raised whenever a table changes its meaning; kept in PRAGMA user_version.
 inline constexpr int kSchemaVersion = 1;
 
+/// How long to wait while a reader's checkpoint or a copy holds the file.
+inline constexpr int kPatience_ms = 60000;
+
 /// Makes the tables in an empty database; leaves one with tables alone.
 void make_tables(SQLite::Database& database);
 
