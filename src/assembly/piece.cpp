@@ -67,8 +67,8 @@ void spend_inside(const Piece& a, const Piece& b, const Rigid& b_to_a, double li
   }
 }
 
-/// Spends what of b's body has an inside under it that is clearly inside a too.  Surfaces that coincide lie nowhere in each other, and all of
-/// their insides do: two scans of one sherd.
+/// Spends what of b's body has an inside under it, at twice the limit, that is clearly inside a too.  Surfaces that coincide lie nowhere
+/// in each other, and all of their insides do: two scans of one sherd.
 void spend_shared_inside(const Piece& a, const Piece& b, const Rigid& b_to_a, double limit,
                          Allowance& allowance) {
   const Points& body = b.body();
@@ -181,11 +181,13 @@ bool interpenetrate(const Piece& a, const Piece& b, const Rigid& b_to_a) {
   spend_inside(a, b, b_to_a, limit, surface);
   spend_inside(b, a, a_to_b, limit, surface);
   if (surface.is_spent()) return true;
+  // Half way into a wall is inside it, however coarse the scan.
+  const double within = thickness > 0 ? kClearly * thickness : limit;
   Allowance inside(allowed);
   if (a.area() < b.area())
-    spend_shared_inside(b, a, a_to_b, limit, inside);
+    spend_shared_inside(b, a, a_to_b, within, inside);
   else
-    spend_shared_inside(a, b, b_to_a, limit, inside);
+    spend_shared_inside(a, b, b_to_a, within, inside);
   return inside.is_spent();
 }
 
