@@ -11,6 +11,9 @@
 #include <memory>
 
 #include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/words.hpp"
+#include "mesh/files.hpp"
 #include "mesh/load.hpp"
 
 namespace rejoin::batch {
@@ -23,6 +26,22 @@ bool is_scan(const fs::directory_entry& entry) {
   if (entry.path().filename().string().starts_with('.'))
     return false;  // hidden, as macOS leaves one beside every file
   return mesh::has_scan_name(entry.path());
+}
+
+void add_bytes(const fs::path& path, XXH3_state_t& state) {
+  const auto refuse = [&path](int reason) {
+    throw IoError(path.string(), fmt::format("cannot be read ({})", std::strerror(reason)),
+                  "check the file and its permissions");
+  };
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) refuse(errno);
+  std::vector<char> block(1U << 20U);
+  while (file) {
+    file.read(block.data(), static_cast<std::streamsize>(block.size()));
+    XXH3_128bits_update(&state, block.data(), static_cast<std::size_t>(file.gcount()));
+  }
+  if (file.bad()) refuse(errno);
 }
 
 }  // namespace
@@ -47,21 +66,9 @@ std::vector<std::string> find_scans(const fs::path& folder) {
 }
 
 std::string content_hash(const fs::path& path) {
-  const auto refuse = [&path](int reason) {
-    throw IoError(path.string(), fmt::format("cannot be read ({})", std::strerror(reason)),
-                  "check the file and its permissions");
-  };
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) refuse(errno);
   const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), &XXH3_freeState);
   XXH3_128bits_reset(state.get());
-  std::vector<char> block(1U << 20U);
-  while (file) {
-    file.read(block.data(), static_cast<std::streamsize>(block.size()));
-    XXH3_128bits_update(state.get(), block.data(), static_cast<std::size_t>(file.gcount()));
-  }
-  if (file.bad()) refuse(errno);
+  for (const fs::path& file : mesh::files_of(path)) add_bytes(file, *state);
   const XXH128_hash_t hash = XXH3_128bits_digest(state.get());
   return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
@@ -92,6 +99,35 @@ std::vector<store::Fragment> files_of_equal_size(const fs::path& folder,
     }
   }
   return files;
+}
+
+ChangedScans changed_scans(const std::vector<store::Fragment>& fragments) {
+  std::vector<std::string> now(fragments.size());
+  run_side_by_side(fragments.size(), [&](std::size_t k) {
+    if (fragments[k].state == store::FragmentState::Ready) now[k] = hash_if_readable(fragments[k].path);
+  });
+  ChangedScans scans;
+  for (std::size_t k = 0; k < fragments.size(); ++k) {
+    if (now[k].empty() || now[k] == fragments[k].hash) continue;
+    (now[k] == store::kUnreadable ? scans.gone : scans.changed).push_back(fragments[k].name);
+  }
+  return scans;
+}
+
+std::vector<std::string> told(const ChangedScans& scans, const std::string& instead) {
+  std::vector<std::string> lines;
+  const auto add = [&](const std::vector<std::string>& names, const std::string& one,
+                       const std::string& several, const std::string& mend) {
+    if (names.empty()) return;
+    lines.push_back(fmt::format("{} {} ({}{}); {} what the run keeps{}", counted(names.size(), "scan"),
+                                names.size() == 1 ? one : several, names.front(),
+                                names.size() == 1 ? "" : ", ...", instead, mend));
+  };
+  add(scans.gone, "cannot be read where rejoin batch found it",
+      "cannot be read where rejoin batch found them", "");
+  add(scans.changed, "changed since rejoin batch matched it", "changed since rejoin batch matched them",
+      ": run rejoin batch again");
+  return lines;
 }
 
 }  // namespace rejoin::batch

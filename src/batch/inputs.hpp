@@ -14,8 +14,8 @@ namespace rejoin::batch {
 /// \throws InputError  it holds fewer than two such files
 std::vector<std::string> find_scans(const std::filesystem::path& folder);
 
-/// 128 bits of the file's content (XXH3) as 32 hexadecimal digits; equal contents have equal hashes, under any name.
-/// \throws IoError the file cannot be read
+/// 128 bits of the content (XXH3) of mesh::files_of() as 32 hexadecimal digits; equal contents have equal hashes, under any name.
+/// \throws IoError a file cannot be read
 std::string content_hash(const std::filesystem::path& path);
 
 /// content_hash(), or store::kUnreadable where the file cannot be read.
@@ -25,5 +25,18 @@ std::string hash_if_readable(const std::filesystem::path& path);
 /// \param names  as find_scans() gives them
 std::vector<store::Fragment> files_of_equal_size(const std::filesystem::path& folder,
                                                  const std::vector<std::string>& names);
+
+/// Scans of a run that are no longer what was matched, by name.
+struct ChangedScans {
+  std::vector<std::string> gone;     ///< cannot be read where they were
+  std::vector<std::string> changed;  ///< have another content
+};
+
+/// Reads the files of those that were ready, side by side.
+ChangedScans changed_scans(const std::vector<store::Fragment>& fragments);
+
+/// Lines for the user, none if nothing changed.
+/// \param instead  what is done with the surfaces that the run keeps, such as "shown"
+std::vector<std::string> told(const ChangedScans& scans, const std::string& instead);
 
 }  // namespace rejoin::batch

@@ -120,7 +120,7 @@ std::string reason_of(const AssembleInput& input, const assembly::Result& result
 }
 
 std::vector<std::string> warnings_of(const AssembleInput& input, const assembly::Result& result) {
-  std::vector<std::string> list;
+  std::vector<std::string> list = input.warnings;
   const std::string missing = store::told(input.remains);
   if (!missing.empty()) list.push_back(missing);
   for (const std::string& warning : result.warnings) list.push_back(with_names(warning, input.names));

@@ -21,6 +21,7 @@ struct AssembleInput {
   std::vector<match::Fragment> fragments;
   std::vector<assembly::Link> links;
   store::Remains remains;                  ///< of the run
+  std::vector<std::string> warnings;       ///< what else the user should know of the run
   std::map<std::string, std::string> bad;  ///< fragments that cannot be used or are copies, with the reason
 };
 

@@ -6,7 +6,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 
+#include "batch/inputs.hpp"
 #include "batch/shelf.hpp"
 #include "batch/sizes.hpp"
 #include "cli/assemble_input.hpp"
@@ -62,7 +64,7 @@ class AssemblyReader {
     const std::size_t missing = json.value("pairs_missing", report_.missing_pairs);
     const std::size_t later = missing - std::min(missing, report_.missing_pairs);
     if (later > 0) change_ = fmt::format("the assembly is older than {} of the pairs", later);
-    for (const auto& [name, value] : json["fragments"].items()) look_for_another_scan(name, value);
+    look_for_changes(json["fragments"]);
     for (const auto& [name, value] : json["fragments"].items()) place(name, value);
     const ordered_json joins = json.value("joins", ordered_json::array());
     for (const ordered_json& join : joins) use(join);
@@ -70,20 +72,34 @@ class AssemblyReader {
     return change_;
   }
 
-  std::size_t number_of(const ordered_json& name) const {
-    const auto at = name.is_string() ? numbers_.find(name.get<std::string>()) : numbers_.end();
-    if (at == numbers_.end()) refuse(path_, "names a fragment that the run does not have: " + name.dump());
-    return at->second;
+  /// Nothing for a fragment that the run has no longer.
+  std::optional<std::size_t> number_of(const ordered_json& name) const {
+    if (!name.is_string()) refuse(path_, "has no name of a fragment where one belongs: " + name.dump());
+    const auto at = numbers_.find(name.get<std::string>());
+    return at == numbers_.end() ? std::nullopt : std::optional(at->second);
   }
 
-  void look_for_another_scan(const std::string& name, const ordered_json& value) {
-    const std::string& hash = stored_[number_of(name)].hash;
-    if (!change_.empty() || !value.is_object() || value.value("scan", hash) == hash) return;
-    change_ = "the assembly was made with another scan of " + name;
+  /// Scans that came, went or are others since.
+  void look_for_changes(const ordered_json& fragments) {
+    for (const auto& [name, value] : fragments.items()) {
+      const auto number = number_of(name);
+      if (!change_.empty() || !value.is_object()) return;
+      if (!number) {
+        change_ = "the assembly was made with " + name + ", which the run no longer has";
+      } else if (const std::string& hash = stored_[*number].hash; value.value("scan", hash) != hash) {
+        change_ = "the assembly was made with another scan of " + name;
+      }
+    }
+    for (const store::Fragment& fragment : stored_) {
+      if (change_.empty() && !fragments.contains(fragment.name))
+        change_ = "the assembly was made without " + fragment.name;
+    }
   }
 
   void place(const std::string& name, const ordered_json& value) {
-    report::ReportFragment& fragment = report_.fragments[number_of(name)];
+    const auto number = number_of(name);
+    if (!number) return;
+    report::ReportFragment& fragment = report_.fragments[*number];
     if (!value.is_object()) refuse(path_, "fragment \"" + name + "\" is no object");
     if (change_.empty()) fragment.reason = value.value("reason", fragment.reason);
     const int group = value.value("group", -1);
@@ -100,10 +116,11 @@ class AssemblyReader {
   void use(const ordered_json& join) {
     if (!join.is_object() || !join.contains("a") || !join.contains("b"))
       refuse(path_, "a join has no \"a\" and \"b\"");
-    const std::size_t a = number_of(join["a"]);
-    const std::size_t b = number_of(join["b"]);
+    const auto a = number_of(join["a"]);
+    const auto b = number_of(join["b"]);
+    if (!a || !b) return;
     const auto same = [&](const report::ReportPair& pair) {
-      return std::minmax(pair.a, pair.b) == std::minmax(a, b);
+      return std::minmax(pair.a, pair.b) == std::minmax(*a, *b);
     };
     const auto known = std::find_if(report_.pairs.begin(), report_.pairs.end(), same);
     if (known != report_.pairs.end()) {
@@ -111,8 +128,8 @@ class AssemblyReader {
       return;
     }
     report::ReportPair pair;
-    pair.a = a;
-    pair.b = b;
+    pair.a = *a;
+    pair.b = *b;
     pair.score = join.value("score", 0.0);
     pair.verdict = "touch";
     pair.comparison = report::Comparison::Touches;
@@ -136,6 +153,7 @@ class AssemblyReader {
     }
     std::string posed;
     const ordered_json poses = json.value("poses", ordered_json::object());
+    if (!poses.is_object()) refuse(path_, "\"poses\" is no object");
     for (const auto& [name, pose] : poses.items()) posed += (posed.empty() ? "" : ", ") + name_of(name);
     if (!posed.empty()) report_.parameters.emplace_back("pose given", posed);
     const ordered_json problems = json.value("problems", ordered_json::array());
@@ -143,8 +161,9 @@ class AssemblyReader {
       if (problem.is_string()) report_.warnings.push_back(problem.get<std::string>());
   }
 
-  const std::string& name_of(const ordered_json& name) const {
-    return report_.fragments[number_of(name)].name;
+  std::string name_of(const ordered_json& name) const {
+    static_cast<void>(number_of(name));  // refuses what is none
+    return name.get<std::string>();
   }
 
   std::filesystem::path path_;
@@ -154,42 +173,16 @@ class AssemblyReader {
   std::string change_;  ///< of the run since the assembly was made
 };
 
-/// The scan's surface, or the one that the run keeps of it; none of what is no scan or a copy.
-class SurfaceReader {
- public:
-  SurfaceReader(std::filesystem::path cache, std::size_t faces) : cache_(std::move(cache)), faces_(faces) {}
-
-  /// \throws Error there is neither
-  mesh::Mesh read(const store::Fragment& fragment) {
-    try {
-      return made_ready(mesh::load(fragment.path).mesh);
-    } catch (const Error&) {
-      std::optional<mesh::Mesh> kept = batch::kept_surface(fragment, cache_);
-      if (!kept) throw;
-      if (instead_++ == 0) first_ = fragment.path;
-      return made_ready(std::move(*kept));
-    }
-  }
-
-  /// Empty if all scans could be read.
-  std::string warning() const {
-    if (instead_ == 0) return "";
-    return fmt::format(
-        "{} cannot be read where rejoin batch found {} ({}{}); shown instead is what the run keeps",
-        counted(instead_, "scan"), instead_ == 1 ? "it" : "them", first_, instead_ == 1 ? "" : ", ...");
-  }
-
- private:
-  mesh::Mesh made_ready(mesh::Mesh scan) const {
-    if (scan.is_cloud()) scan = mesh::surface_of_cloud(scan);
-    return mesh::simplify(scan, faces_);
-  }
-
-  std::filesystem::path cache_;
-  std::size_t faces_;
-  std::size_t instead_ = 0;
-  std::string first_;
-};
+/// The scan's surface, or the one that the run keeps of it where that is no longer what was matched.
+/// \throws Error there is neither
+mesh::Mesh surface_of(const store::Fragment& fragment, bool is_as_matched, const std::filesystem::path& cache,
+                      std::size_t faces) {
+  std::optional<mesh::Mesh> kept;
+  if (!is_as_matched) kept = batch::kept_surface(fragment, cache);
+  mesh::Mesh scan = kept ? std::move(*kept) : mesh::load(fragment.path).mesh;
+  if (scan.is_cloud()) scan = mesh::surface_of_cloud(scan);
+  return mesh::simplify(scan, faces);
+}
 
 void warn(report::RunReport& report, Console& console, const std::string& text) {
   console.end_progress();
@@ -204,7 +197,9 @@ void read_scans(report::RunReport& report, const std::vector<store::Fragment>& s
   const std::size_t count = report.fragments.size();
   const std::size_t faces =
       std::clamp(kMostFaces / std::max<std::size_t>(1, count), kLeastFaces, kFragmentFaces);
-  SurfaceReader reader(folder / batch::kCacheName, faces);
+  const batch::ChangedScans changed = batch::changed_scans(stored);
+  std::set<std::string> other(changed.gone.begin(), changed.gone.end());
+  other.insert(changed.changed.begin(), changed.changed.end());
   bool any = false;
   for (std::size_t k = 0; k < count && !context.cancelled(); ++k) {
     context.report("scans", static_cast<double>(k) / static_cast<double>(count));
@@ -214,7 +209,8 @@ void read_scans(report::RunReport& report, const std::vector<store::Fragment>& s
       if (stored[k].state == store::FragmentState::Bad) {
         warn(report, console, stored[k].error);
       } else {
-        fragment.mesh = reader.read(stored[k]);
+        fragment.mesh =
+            surface_of(stored[k], other.count(fragment.name) == 0, folder / batch::kCacheName, faces);
       }
     } catch (const Error& error) {
       warn(report, console, error.what());
@@ -222,7 +218,7 @@ void read_scans(report::RunReport& report, const std::vector<store::Fragment>& s
     if (fragment.mesh.faces.empty()) fragment.mesh = {};
     any = any || !fragment.mesh.faces.empty();
   }
-  if (!reader.warning().empty()) warn(report, console, reader.warning());
+  for (const std::string& line : batch::told(changed, "shown is")) warn(report, console, line);
   if (!any && !context.cancelled())
     warn(report, console,
          "no surface could be read, so the page has no pictures: run rejoin batch again on the scans, where "

@@ -53,6 +53,42 @@ TEST_F(Inputs, HashTellsContentNotName) {
   EXPECT_THROW(content_hash(folder_ / "nowhere"), IoError);
 }
 
+TEST_F(Inputs, HashOfAGltfIsOfItsBuffersToo) {
+  const std::string json = R"({"asset": {"version": "2.0"}, "buffers": [{"uri": "data:,x", "byteLength": 1},)"
+                           R"( {"uri": "a%20buffer.bin", "byteLength": 3}]})";
+  put("a.gltf", json);
+  EXPECT_EQ(hash_if_readable(folder_ / "a.gltf"), store::kUnreadable);
+  put("a buffer.bin", "one");
+  const std::string before = content_hash(folder_ / "a.gltf");
+  put("a buffer.bin", "two");
+  EXPECT_NE(content_hash(folder_ / "a.gltf"), before);
+  put("a buffer.bin", "one");
+  EXPECT_EQ(content_hash(folder_ / "a.gltf"), before);
+  put("no.gltf", "{");
+  EXPECT_NE(hash_if_readable(folder_ / "no.gltf"), store::kUnreadable);
+}
+
+TEST_F(Inputs, ChangedScansAreToldByName) {
+  put("a.ply", "one");
+  put("b.ply", "two");
+  std::vector<store::Fragment> fragments(4);
+  for (std::size_t k = 0; k < fragments.size(); ++k) {
+    fragments[k].name = std::string(1, static_cast<char>('a' + k)) + ".ply";
+    fragments[k].path = folder_ / fragments[k].name;
+    fragments[k].hash = hash_if_readable(folder_ / "a.ply");
+    fragments[k].state = k == 3 ? store::FragmentState::Bad : store::FragmentState::Ready;
+  }
+  const ChangedScans scans = changed_scans(fragments);
+  EXPECT_EQ(scans.changed, std::vector<std::string>{"b.ply"});
+  EXPECT_EQ(scans.gone, std::vector<std::string>{"c.ply"});
+  EXPECT_EQ(told(scans, "shown is"),
+            (std::vector<std::string>{
+                "1 scan cannot be read where rejoin batch found it (c.ply); shown is what the run keeps",
+                "1 scan changed since rejoin batch matched it (b.ply); shown is what the run keeps: run "
+                "rejoin batch again"}));
+  EXPECT_TRUE(told({}, "shown is").empty());
+}
+
 TEST_F(Inputs, CopiesAreFoundByContentAndTheShortestNameStandsForAll) {
   put("Copy of c.ply", "one");
   put("b.ply", "two");  // as long as the others

@@ -286,6 +286,25 @@ TEST_F(Batch, RunKnowsItsScansFromAnyFolderAndKeepsTheirSurfacesWhereTheyAreGone
 #endif
 }
 
+TEST_F(Batch, ScanReplacedSinceIsToldAndWhatWasMatchedIsAssembled) {
+  make_scans(folder_ / "scans");
+  ASSERT_EQ(run({"batch", folder_ / "scans", "--out", run_, "--quiet"}).exit_code, 0);
+  ASSERT_EQ(run({"assemble", run_}).err, "");
+  const std::string before = read_file(run_ + "/assembly.json");
+  mesh::save(folder_ / "scans/b7.ply", match::testing::planted_pair(9, kCells).a);
+  const std::string told = "1 scan changed since rejoin batch matched it (b7.ply)";
+  const Finished assembled = run({"assemble", run_});
+  EXPECT_EQ(assembled.exit_code, 0);
+  EXPECT_NE(assembled.err.find(told), std::string::npos) << assembled.err;
+  const json after = json::parse(read_file(run_ + "/assembly.json"));
+  EXPECT_EQ(after["fragments"], json::parse(before)["fragments"]);
+  EXPECT_EQ(after["warnings"][0].get<std::string>().find(told), 0U);
+#ifdef REJOIN_VIEWER
+  const Finished report = run({"report", run_, "--pictures", "0"});
+  EXPECT_NE(report.err.find(told), std::string::npos) << report.err;
+#endif
+}
+
 TEST_F(Batch, ScanInMetresAmongMillimetresIsTold) {
   make_scans(folder_ / "scans");
   mesh::Mesh metres = match::testing::planted_pair(9, kCells).a;

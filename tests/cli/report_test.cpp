@@ -60,7 +60,8 @@ TEST(Report, ShowsWhatTheAssemblyPlacedAndWhyNotTheRest) {
   const json assembly = {{"schema", "rejoin.assembly/1"},
                          {"fragments",
                           {{"a.ply", {{"pose", one}, {"group", 0}, {"confidence", 0.5}}},
-                           {"b.ply", {{"pose", one}, {"group", 0}, {"confidence", 0.25}}}}},
+                           {"b.ply", {{"pose", one}, {"group", 0}, {"confidence", 0.25}}},
+                           {"gone.ply", {{"pose", nullptr}, {"group", -1}}}}},
                          {"joins", {{{"a", "b.ply"}, {"b", "a.ply"}, {"score", 0.75}}}},
                          {"unplaced", {"gone.ply"}}};
   run.assemble(assembly.dump());
@@ -123,8 +124,9 @@ TEST(Report, TellsThatTheAssemblyIsOlderThanThePairsAndTakesBackItsReasons) {
   const PlantedRun run;
   const json left_out = {
       {"pose", nullptr}, {"group", -1}, {"reason", "3 of its 3 pairs are not compared yet"}};
-  json assembly = {
-      {"schema", "rejoin.assembly/1"}, {"fragments", {{"a.ply", left_out}}}, {"pairs_missing", 3}};
+  json assembly = {{"schema", "rejoin.assembly/1"},
+                   {"fragments", {{"a.ply", left_out}, {"b.ply", left_out}, {"gone.ply", left_out}}},
+                   {"pairs_missing", 3}};
   run.assemble(assembly.dump());
   const Finished stale = testing::run({"report", run.folder, "--pictures", "0"});
   ASSERT_EQ(stale.exit_code, 0) << stale.err;
@@ -140,6 +142,30 @@ TEST(Report, TellsThatTheAssemblyIsOlderThanThePairsAndTakesBackItsReasons) {
   run.assemble(assembly.dump());
   const Finished replaced = testing::run({"report", run.folder, "--pictures", "0"});
   EXPECT_NE(replaced.err.find("made with another scan of a.ply"), std::string::npos) << replaced.err;
+}
+
+TEST(Report, TellsThatScansCameOrWentSinceTheAssembly) {
+  const PlantedRun run;
+  const json one = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
+  const json placed = {{"pose", one}, {"group", 0}};
+  json assembly = {{"schema", "rejoin.assembly/1"},
+                   {"fragments", {{"a.ply", placed}, {"gone.ply", placed}}},
+                   {"joins", {{{"a", "a.ply"}, {"b", "gone.ply"}, {"score", 0.75}}}}};
+  run.assemble(assembly.dump());
+  const Finished came = testing::run({"report", run.folder, "--pictures", "0"});
+  ASSERT_EQ(came.exit_code, 0) << came.err;
+  EXPECT_NE(came.err.find("the assembly was made without b.ply"), std::string::npos) << came.err;
+  const std::string reason = data_of(read_file(run.page))["fragments"][1]["reason"];
+  EXPECT_EQ(reason.find("the assembly was made without b.ply"), 0U) << reason;
+  assembly["fragments"]["old.ply"] = placed;
+  assembly["joins"].push_back({{"a", "old.ply"}, {"b", "a.ply"}, {"score", 0.75}});
+  run.assemble(assembly.dump());
+  const Finished went = testing::run({"report", run.folder, "--pictures", "0"});
+  ASSERT_EQ(went.exit_code, 0) << went.err;
+  EXPECT_NE(went.err.find("the assembly was made with old.ply, which the run no longer has"),
+            std::string::npos)
+      << went.err;
+  EXPECT_FALSE(data_of(read_file(run.page))["fragments"][0]["pose"].is_null());
 }
 
 TEST(Report, ShowsWhatTheUserAskedForAndWhatCouldNotBeKept) {
@@ -169,7 +195,6 @@ TEST(Report, RefusesAnAssemblyThatIsNoneOfThisRun) {
   const PlantedRun run;
   for (const char* text :
        {"{", "[]", R"({"schema": 5})", R"({"schema": "rejoin.assembly/1"})",
-        R"({"schema": "rejoin.assembly/1", "fragments": {"other.ply": {"group": 0}}})",
         R"({"schema": "rejoin.assembly/1", "fragments": {"a.ply": {"group": "x"}}})",
         R"({"schema": "rejoin.assembly/1", "fragments": {"a.ply": {"group": 0, "pose": [[1]]}}})",
         R"({"schema": "rejoin.assembly/1", "fragments": {}, "joins": [{"a": 1, "b": 2}]})",
