@@ -137,8 +137,13 @@ class Assembler {
     for (std::size_t k = 0; k < pieces_.size(); ++k)
       if (settled.group[k] == settled.group[a]) members.push_back(k);
     grower_.settle(settled, members);
-    const Rigid b_to_a = inverse(settled.poses[a]) * settled.poses[b];
-    return touch(pieces_[a], pieces_[b], b_to_a).area > kMet * smaller_area(a, b);
+    return touch_in(settled, a, b);
+  }
+
+  bool touch_in(const Growth& growth, std::size_t a, std::size_t b) const {
+    const Rigid b_to_a = inverse(growth.poses[a]) * growth.poses[b];
+    return growth.group[a] == growth.group[b] &&
+           touch(pieces_[a], pieces_[b], b_to_a).area > kMet * smaller_area(a, b);
   }
 
   /// Sure joins that had to go for pairs that must join.
@@ -280,9 +285,26 @@ class Assembler {
 
   void tell_broken_wishes(Result& result) const {
     for (const auto& [a, b] : options_.constraints.must_join) {
-      if (growth_.group[a] == growth_.group[b]) continue;
+      if (touch_in(growth_, a, b)) continue;
       result.warnings.push_back(
-          fmt::format("{{{}}} and {{{}}} must join, but at none of their poses they fit", a, b));
+          is_pinned(a) && is_pinned(b)
+              ? fmt::format("{{{}}} and {{{}}} must join, but do not touch at the poses given", a, b)
+              : fmt::format("{{{}}} and {{{}}} must join, but at none of their poses they fit", a, b));
+    }
+    const auto& pinned = options_.constraints.pinned;
+    for (std::size_t i = 0; i < pinned.size(); ++i)
+      for (std::size_t j = i + 1; j < pinned.size(); ++j) tell_of_given_poses(pinned[i], pinned[j], result);
+  }
+
+  /// Given poses are kept whatever they do.
+  void tell_of_given_poses(const std::pair<std::size_t, Rigid>& first,
+                           const std::pair<std::size_t, Rigid>& second, Result& result) const {
+    const auto [a, b] = std::pair(first.first, second.first);
+    if (interpenetrate(pieces_[a], pieces_[b], inverse(first.second) * second.second)) {
+      result.warnings.push_back(fmt::format("the poses given put {{{}}} and {{{}}} into each other", a, b));
+    } else if (among(options_.constraints.must_not_join, a, b) && touch_in(growth_, a, b)) {
+      result.warnings.push_back(
+          fmt::format("{{{}}} and {{{}}} must not join, but touch at the poses given", a, b));
     }
   }
 

@@ -4,11 +4,13 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <map>
 #include <memory>
+#include <string_view>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -20,11 +22,16 @@ namespace rejoin::batch {
 namespace fs = std::filesystem;
 namespace {
 
+/// Models that rejoin writes: of several fragments, whatever folder the user has them put into.
+constexpr std::array<std::string_view, 4> kModels{"assembled.glb", "assembled.ply", "joined.glb",
+                                                  "joined.ply"};
+
 bool is_scan(const fs::directory_entry& entry) {
   std::error_code ignored;
   if (entry.is_directory(ignored)) return false;
   if (entry.path().filename().string().starts_with('.'))
     return false;  // hidden, as macOS leaves one beside every file
+  if (std::ranges::find(kModels, entry.path().filename()) != kModels.end()) return false;
   return mesh::has_scan_name(entry.path());
 }
 

@@ -9,7 +9,8 @@
 
 namespace rejoin::batch {
 
-/// Names of all files in the folder (not below it) whose extension is one that mesh::load() knows, sorted by bytes.
+/// Names of all files in the folder (not below it) whose extension is one that mesh::load() knows, sorted by bytes;
+/// without the models that `rejoin match` and `assemble` write.
 /// \throws IoError     the folder cannot be read
 /// \throws InputError  it holds fewer than two such files
 std::vector<std::string> find_scans(const std::filesystem::path& folder);

@@ -75,9 +75,15 @@ class AssembleCommand final : public Command {
     console.end_progress();
     for (const std::string& warning : warnings_of(input, result)) console.warning(warning);
     if (result.cancelled) console.warning("interrupted; what follows is less than possible");
-    for (const auto& file : files) write_file(file, assembly_json(input, options_.constraints, result));
     console.result(summary(input, result));
-    for (const auto& file : files) console.result(fmt::format("wrote {}\n", file.string()));
+    for (const auto& file : files) {
+      if (result.cancelled && std::filesystem::is_regular_file(file)) {
+        console.warning(file.string() + " is kept as an earlier assembly wrote it");
+        continue;
+      }
+      write_file(file, assembly_json(input, options_.constraints, result));
+      console.result(fmt::format("wrote {}\n", file.string()));
+    }
     if (out_ && !result.cancelled) {
       if (result.groups == 0) console.result("nothing is placed, so there are no models to write\n");
       const NothingToSave guard;

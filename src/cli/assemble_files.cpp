@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
+#include <array>
+#include <cstdint>
 #include <regex>
+#include <sstream>
+#include <system_error>
 
 #include "cli/json_values.hpp"
 #include "core/files.hpp"
@@ -16,6 +19,13 @@ namespace {
 
 /// Bytes of a fragment's name in a file's: file systems take 255, and a file on its way has a few more.
 constexpr std::size_t kLongestName = 200;
+
+constexpr const char* kProject = "assembled.mlp";
+constexpr const char* kGlb = "assembled.glb";
+constexpr const char* kPly = "assembled.ply";
+constexpr const char* kPicture = "assembled.png";
+constexpr std::array kModels{kProject, kGlb, kPly, kPicture};
+constexpr const char* kMatrices = "cloudcompare";
 
 using nlohmann::ordered_json;
 
@@ -181,12 +191,37 @@ std::string matrix_name(const std::string& name, std::size_t number) {
   return fmt::format("{}~{}.txt", name.substr(0, end), number);
 }
 
+/// Sixteen numbers and nothing else.
+bool is_matrix(const std::filesystem::path& file) {
+  constexpr std::uintmax_t kLongest = 1024;
+  std::error_code problem;
+  if (file.extension() != ".txt" || !std::filesystem::is_regular_file(file, problem)) return false;
+  if (std::filesystem::file_size(file, problem) > kLongest || problem) return false;
+  std::istringstream text(read_file(file));
+  int numbers = 0;
+  for (double value = 0; text >> value;) ++numbers;
+  return numbers == 16 && text.eof();
+}
+
+/// Models and matrices of an earlier assembly, which would be taken for this one's where it places less.
+void remove_earlier(const std::filesystem::path& folder) {
+  std::error_code problem;
+  for (const char* name : kModels) std::filesystem::remove(folder / name, problem);
+  std::vector<std::filesystem::path> matrices;
+  for (std::filesystem::directory_iterator entry(folder / kMatrices, problem), end; !problem && entry != end;
+       entry.increment(problem)) {
+    if (is_matrix(entry->path())) matrices.push_back(entry->path());
+  }
+  for (const auto& matrix : matrices) std::filesystem::remove(matrix, problem);
+}
+
 std::vector<std::filesystem::path> write_assembly(const std::filesystem::path& folder,
                                                   const AssembleInput& input,
                                                   const assembly::Result& result) {
   std::vector<std::filesystem::path> files;
+  remove_earlier(folder);
   if (result.groups == 0) return files;
-  const std::filesystem::path matrices = folder / "cloudcompare";
+  const std::filesystem::path matrices = folder / kMatrices;
   require_writable_folder(matrices);
   std::vector<mesh::Placed> parts;
   for (std::size_t k = 0; k < input.names.size(); ++k) {
@@ -196,13 +231,13 @@ std::vector<std::filesystem::path> write_assembly(const std::filesystem::path& f
     write_file(matrices / matrix_name(input.names[k], k), matrix_text(placement.pose));
   }
   files.push_back(matrices);
-  files.push_back(folder / "assembled.mlp");
+  files.push_back(folder / kProject);
   write_file(files.back(), meshlab_project(input, result));
-  for (const char* name : {"assembled.glb", "assembled.ply"}) {
+  for (const char* name : {kGlb, kPly}) {
     files.push_back(folder / name);
     mesh::save_scene(files.back(), parts);
   }
-  files.push_back(folder / "assembled.png");
+  files.push_back(folder / kPicture);
   report::write_assembly_picture(files.back(), placed_fragments(input, result));
   return files;
 }

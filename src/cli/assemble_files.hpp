@@ -27,7 +27,8 @@ std::string assembly_json(const AssembleInput& input, const assembly::Constraint
 /// A MeshLab project of the scans' files at their poses.
 std::string meshlab_project(const AssembleInput& input, const assembly::Result& result);
 
-/// assembled.glb, .ply, .mlp and .png, and a folder "cloudcompare" with a matrix a fragment.
+/// assembled.glb, .ply, .mlp and .png, and a folder "cloudcompare" with a matrix a fragment; those of an earlier assembly there are
+/// removed.
 /// \return what was written; of the matrices the folder
 /// \throws IoError
 std::vector<std::filesystem::path> write_assembly(const std::filesystem::path& folder,

@@ -58,9 +58,13 @@ class CompareCommand final : public Command {
     const match::Fragment a = load_fragment(path_a_, console, context);
     const match::Fragment b = load_fragment(path_b_, console, context);
     const match::Comparison comparison = match::compare(a, b, pose, options_, context);
+    console.end_progress();
+    if (context.cancelled()) {
+      console.warning("interrupted; nothing was written");
+      return kInterrupted;
+    }
     if (json_) write_file(*json_, report::compare_json(comparison, path_a_, path_b_));
     console.result(report::compare_table(comparison));
-    if (context.cancelled()) return kInterrupted;
     if (out_) {
       const NothingToSave guard;
       report::write_compare_outputs(*out_, comparison, path_a_, path_b_);

@@ -25,9 +25,8 @@ ordered_json parse_file(const std::string& path, const char* mend) {
 
 /// A similarity of the plane: file coordinates to a common frame, perhaps in another unit.
 struct Similarity {
-  double angle_rad = 0.0;
+  outline::Planar motion;
   double scale = 1.0;
-  glm::dvec2 translation{0.0};
 };
 
 std::optional<Similarity> similarity_of(const ordered_json& rows) {
@@ -38,18 +37,20 @@ std::optional<Similarity> similarity_of(const ordered_json& rows) {
       if (!value.is_number()) return std::nullopt;
     }
   }
-  const glm::dvec2 x(rows[0][0].get<double>(), rows[1][0].get<double>());
+  const auto column = [&](std::size_t c) {
+    return glm::dvec2(rows[0][c].get<double>(), rows[1][c].get<double>());
+  };
+  const glm::dvec2 x = column(0);
   if (!(glm::length(x) > 0.0)) return std::nullopt;
-  return Similarity{
-      std::atan2(x.y, x.x), glm::length(x), {rows[0][2].get<double>(), rows[1][2].get<double>()}};
+  const bool flipped = outline::cross(x, column(1)) < 0.0;
+  return Similarity{{std::atan2(x.y, x.x), column(2), flipped}, glm::length(x)};
 }
 
 /// B's coordinates -> A's.
 outline::Planar relative(const Similarity& a, const Similarity& b) {
-  outline::Planar pose{b.angle_rad - a.angle_rad, {}, false};
-  const outline::Planar back{-a.angle_rad, {}, false};
-  pose.translation = back.direction(b.translation - a.translation) / a.scale;
-  return pose;
+  outline::Planar from_a = b.motion;
+  from_a.translation = (b.motion.translation - a.motion.translation) / a.scale;
+  return inverse(outline::Planar{a.motion.angle_rad, {}, a.motion.flipped}) * from_a;
 }
 
 /// The names of a join: ["a", "b", ...] or {"a": .., "b": ..}.
@@ -100,10 +101,12 @@ std::vector<outline::KnownJoin> read_known_joins(const std::string& path,
     const auto a = placed.find(names->first);
     const auto b = placed.find(names->second);
     if (a == placed.end() || b == placed.end()) continue;
-    joins.push_back({a->second.piece, b->second.piece, relative(a->second.place, b->second.place)});
+    const outline::Planar pose = relative(a->second.place, b->second.place);
+    if (!pose.flipped) joins.push_back({a->second.piece, b->second.piece, pose});
   }
   if (joins.empty())
-    throw InputError(path, "holds no join of these pieces", "give an assembly of pieces from this folder");
+    throw InputError(path, "holds no join of two of these pieces with the same side up",
+                     "give an assembly of pieces from this folder");
   return joins;
 }
 

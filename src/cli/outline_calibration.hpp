@@ -10,7 +10,8 @@
 namespace rejoin::cli {
 
 /// Joins of known pieces from a JSON file: an assembly ("fragments": {NAME: {"pose": 3 x 3}}, "joins": [{"a", "b"}]), or the
-/// truth of a made set ("to_world" for "pose", joins as [a, b, length]).  Names that no piece has are passed over.
+/// truth of a made set ("to_world" for "pose", joins as [a, b, length]).  Names that no piece has are passed over, and
+/// joins of a piece that lies upside down against the other, which the multiscale method never compares.
 /// \throws IoError   it cannot be read
 /// \throws InputError no JSON, a matrix is broken, or no join is left
 std::vector<outline::KnownJoin> read_known_joins(const std::string& path,

@@ -10,6 +10,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -49,7 +50,11 @@ void run_side_by_side(std::size_t count, const std::function<void(std::size_t)>&
   const std::size_t workers = std::min(count, static_cast<std::size_t>(thread_count()));
   std::vector<std::thread> threads;
   threads.reserve(workers);
-  for (std::size_t w = 0; w < workers; ++w) threads.emplace_back(work);
+  try {
+    for (std::size_t w = 0; w < workers; ++w) threads.emplace_back(work);
+  } catch (const std::system_error&) {  // the system gives no more: fewer do the same
+    if (threads.empty()) work();
+  }
   for (std::thread& thread : threads) thread.join();
   if (problem) std::rethrow_exception(problem);
 }

@@ -48,7 +48,7 @@ class Assembler {
   void run(const Context& context) {
     grow(context);
     // Each round must make the whole fit better, so this ends; the number is a safeguard.
-    for (int round = 0; round < 8 && resolve_one_conflict(); ++round) grow(context);
+    for (int round = 0; round < 8 && resolve_one_conflict(context); ++round) grow(context);
   }
 
   Layout& layout() { return layout_; }
@@ -61,7 +61,7 @@ class Assembler {
     for (std::size_t done = 0;;) {
       const std::vector<Bundle> bundles = sorted_bundles();
       const auto good = std::find_if(bundles.begin(), bundles.end(), [&](const Bundle& bundle) {
-        if (refused_.count(key(bundle)) > 0) return false;
+        if (context.cancelled() || refused_.count(key(bundle)) > 0) return false;
         if (try_merge(bundle)) return true;
         refused_.insert(key(bundle));
         return false;
@@ -170,9 +170,9 @@ class Assembler {
   }
 
   /// Looks for a refused bundle that says more than what holds the pieces in its way, takes these off and joins it.
-  bool resolve_one_conflict() {
+  bool resolve_one_conflict(const Context& context) {
     for (const Bundle& bundle : sorted_bundles()) {
-      if (bundle.information < options_.least_information) return false;
+      if (context.cancelled() || bundle.information < options_.least_information) return false;
       const std::set<std::size_t> in_the_way = cheaper_obstacles(bundle);
       if (in_the_way.empty()) continue;
       Layout before = layout_;
@@ -293,7 +293,8 @@ Assembly assemble(const std::vector<Piece>& pieces, const std::vector<PairResult
   const LinkedPieces linked = detail::link_pieces(pieces, pairs, options);
   Assembler assembler(linked, options);
   assembler.run(context);
-  for (std::size_t g = 0; g < pieces.size(); ++g) assembler.layout().spread_error(g, linked.tolerance, 4);
+  for (std::size_t g = 0; g < pieces.size() && !context.cancelled(); ++g)
+    assembler.layout().spread_error(g, linked.tolerance, 4);
   Assembly assembly = Description(pieces, linked, assembler.layout()).assembly();
   assembly.similarity = detail::similarity(linked);
   assembly.cancelled = context.cancelled();

@@ -1,6 +1,7 @@
 /// Broken balls with known poses, and joins that are true, false or unsure.
 #include "assembly/assembly.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -429,6 +430,31 @@ TEST(Constraints, PinnedPiecesStayWhereTheyAre) {
   EXPECT_EQ(result.placements[corner.c].pose.rotation, ball().to_world[corner.c].rotation);
   EXPECT_LT(angle_between(result.placements[corner.b].pose, ball().to_world[corner.b]) / kDegree, 0.5);
   EXPECT_EQ(result.groups, 1);
+}
+
+TEST(Constraints, PosesGivenAgainstOtherWishesAreKeptAndTold) {
+  const Corner corner = corner_of(ball());
+  const Rigid at_a = ball().to_world[corner.a];
+  const Rigid far_off{glm::dmat3(1.0), {100.0, 0.0, 0.0}};
+  const auto warnings = [&](const Rigid& at_b, bool must) {
+    Options options;
+    options.constraints.pinned = {{corner.a, at_a}, {corner.b, at_b}};
+    (must ? options.constraints.must_join : options.constraints.must_not_join) = {{corner.b, corner.a}};
+    const Result result = run(ball(), {}, options);
+    EXPECT_EQ(result.placements[corner.b].pose.translation, at_b.translation);
+    return result.warnings;
+  };
+  const std::string names = fmt::format("{{{}}} and {{{}}}", corner.b, corner.a);
+  const std::string other_way = fmt::format("{{{}}} and {{{}}}", corner.a, corner.b);
+  EXPECT_TRUE(warnings(ball().to_world[corner.b], true).empty());
+  EXPECT_EQ(warnings(far_off, true),
+            std::vector<std::string>{names + " must join, but do not touch at the poses given"});
+  EXPECT_TRUE(warnings(far_off, false).empty());
+  EXPECT_EQ(warnings(ball().to_world[corner.b], false),
+            std::vector<std::string>{other_way + " must not join, but touch at the poses given"});
+  const Rigid inside = at_a * ball().inside_link(corner.a, corner.b, 1.0).pose;
+  EXPECT_EQ(warnings(inside, false),
+            std::vector<std::string>{"the poses given put " + other_way + " into each other"});
 }
 
 TEST(Assemble, SameResultForAnyNumberOfThreadsAndOrderOfLinks) {

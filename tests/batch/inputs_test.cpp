@@ -28,7 +28,8 @@ class Inputs : public ::testing::Test {
 };
 
 TEST_F(Inputs, ScansAreFoundByExtensionInAnyCaseAndSorted) {
-  for (const char* name : {"b.PLY", "a.drc", "truth.json", "readme.txt", "c.glb", "d.ply.part", "._b.PLY"})
+  for (const char* name : {"b.PLY", "a.drc", "truth.json", "readme.txt", "c.glb", "d.ply.part", "._b.PLY",
+                           "assembled.ply", "joined.glb"})
     put(name, "x");
   fs::create_directory(folder_ / "folder.ply");
   EXPECT_EQ(find_scans(folder_), (std::vector<std::string>{"a.drc", "b.PLY", "c.glb"}));

@@ -74,8 +74,14 @@ TEST_F(BrokenBall, AssembleOfAFolderMatchesAndPutsItTogether) {
   write_file(
       wishes,
       R"({"must_not_join": [["fragment_00.ply", "fragment_01.ply"], ["fragment_00.ply", "fragment_02.ply"]]})");
-  const Finished again = run({"assemble", out + "/run", "--json", json_, "--constraints", wishes});
+  write_file(out + "/cloudcompare/notes.txt", "mine");
+  const Finished again =
+      run({"assemble", out + "/run", "--json", json_, "--constraints", wishes, "--out", out});
   ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_FALSE(std::filesystem::exists(out + "/cloudcompare/fragment_00.ply.txt"))
+      << "the matrix of a piece that is placed no more";
+  EXPECT_TRUE(std::filesystem::exists(out + "/cloudcompare/fragment_01.ply.txt"));
+  EXPECT_TRUE(std::filesystem::exists(out + "/cloudcompare/notes.txt"));
   const ordered_json apart = ordered_json::parse(read_file(json_));
   EXPECT_EQ(apart["unplaced"], ordered_json({"fragment_00.ply"}));
   EXPECT_EQ(apart["constraints"]["must_not_join"], ordered_json::parse(read_file(wishes))["must_not_join"]);
@@ -91,11 +97,13 @@ TEST_F(BrokenBall, AssembleOfAFolderMatchesAndPutsItTogether) {
     }
   }
   write_file(wishes, ordered_json({{"must_not_join", none}}).dump());
-  const std::string empty = folder_ / "empty";
-  const Finished nothing = run({"assemble", out + "/run", "--out", empty, "--constraints", wishes});
+  const Finished nothing = run({"assemble", out + "/run", "--out", out, "--constraints", wishes});
   EXPECT_EQ(nothing.exit_code, 0) << nothing.err;
   EXPECT_NE(nothing.out.find("nothing is placed"), std::string::npos) << nothing.out;
-  EXPECT_TRUE(std::filesystem::is_empty(empty));
+  for (const char* file : {"/assembled.glb", "/assembled.ply", "/assembled.mlp", "/assembled.png",
+                           "/cloudcompare/fragment_01.ply.txt"}) {
+    EXPECT_FALSE(std::filesystem::exists(out + file)) << file;
+  }
 }
 
 TEST_F(BrokenBall, WhatIsNotThereIsNeitherRunNorFolder) {

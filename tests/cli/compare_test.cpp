@@ -47,6 +47,17 @@ TEST_F(CompareCommand, BothErrorsAreSmallAtThePlantedPoseAndAgree) {
   EXPECT_FALSE(read_file(folder / "out/compare.png").empty());
 }
 
+TEST_F(CompareCommand, InterruptedWritesNoFigures) {
+  Running running({"compare", a, b, "--pose", pose_file(1), "--json", json, "--verbose", "--resolution",
+                   "2048", "--steps", "3"});
+  ASSERT_TRUE(running.wait_for_stderr("b.ply: "));
+  running.interrupt();
+  const Finished finished = running.finish();
+  EXPECT_EQ(finished.exit_code, 130) << finished.err;
+  EXPECT_EQ(finished.out, "");
+  EXPECT_FALSE(std::filesystem::exists(json));
+}
+
 TEST_F(CompareCommand, PosesThatAreNoRigidMotionAreRefused) {
   expect_refused(pose_file(2));
   expect_refused(pose_file(-1));

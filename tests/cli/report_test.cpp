@@ -182,7 +182,7 @@ TEST(Report, ShowsWhatTheUserAskedForAndWhatCouldNotBeKept) {
   const Finished finished = testing::run({"report", run.folder, "--pictures", "0"});
   ASSERT_EQ(finished.exit_code, 0) << finished.err;
   const json data = data_of(read_file(run.page));
-  const json parameters = data["parameters"];
+  const json& parameters = data["parameters"];
   const auto has = [&](const json& row) {
     return std::find(parameters.begin(), parameters.end(), row) != parameters.end();
   };

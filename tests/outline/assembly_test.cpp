@@ -229,6 +229,18 @@ TEST(Assembly, OfACancelledSearchHoldsEveryPiece) {
   EXPECT_TRUE(assembly.unplaced.empty());
 }
 
+TEST(Assembly, CancelledWhileItGrowsKeepsWhatItJoined) {
+  const planted::Board board = planted::broken_board(3, 2, 0.05, 61);
+  Context* stop = nullptr;
+  Context context([&](std::string_view stage, double /*fraction*/) {
+    if (stage == "assembling") stop->cancel();
+  });
+  stop = &context;
+  const Assembly assembly = assembled(board.pieces, context);
+  EXPECT_TRUE(assembly.cancelled);
+  EXPECT_EQ(assembly.unplaced.size(), 4U) << "two of six are joined, then it ends";
+}
+
 /// Finds nothing and cancels its context at the pair (1, 2).
 class StoppedMatcher final : public Matcher {
  public:
