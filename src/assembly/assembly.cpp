@@ -201,25 +201,41 @@ class Assembler {
 
   /// Groups side by side along x, so that a viewer shows them apart; a group with pinned members stays.
   void lay_out() {
-    double edge = 0.0;
-    bool first = true;
+    std::vector<std::size_t> pinned;
+    for (const auto& members : members_)
+      if (has_pinned(members)) pinned.insert(pinned.end(), members.begin(), members.end());
+    glm::dvec3 next(0.0);  // where the following group begins in x, and its middle in y and z
+    if (!pinned.empty()) {
+      const auto [low, high] = extent(pinned);
+      next = {high.x + kSpacing * (high.x - low.x), 0.5 * (low.y + high.y), 0.5 * (low.z + high.z)};
+    }
+    bool first = pinned.empty();
     for (const auto& members : members_) {
-      if (std::any_of(members.begin(), members.end(), [&](std::size_t k) { return is_pinned(k); })) continue;
-      glm::dvec3 low(1e300);
-      glm::dvec3 high(-1e300);
-      for (const std::size_t k : members) {
-        const glm::dvec3 centre = growth_.poses[k](pieces_[k].centre());
-        low = glm::min(low, centre - pieces_[k].radius());
-        high = glm::max(high, centre + pieces_[k].radius());
-      }
-      const glm::dvec3 size = high - low;
-      if (!first) edge += kSpacing * size.x;
-      const glm::dvec3 shift =
-          glm::dvec3(edge, 0, 0) - glm::dvec3(low.x, 0.5 * (low.y + high.y), 0.5 * (low.z + high.z));
+      if (has_pinned(members)) continue;
+      const auto [low, high] = extent(members);
+      const double width = high.x - low.x;
+      if (!first) next.x += kSpacing * width;
+      const glm::dvec3 shift = next - glm::dvec3(low.x, 0.5 * (low.y + high.y), 0.5 * (low.z + high.z));
       for (const std::size_t k : members) growth_.poses[k] = Rigid{glm::dmat3(1.0), shift} * growth_.poses[k];
-      edge += (1.0 + kSpacing) * size.x;
+      next.x += (1.0 + kSpacing) * width;
       first = false;
     }
+  }
+
+  bool has_pinned(const std::vector<std::size_t>& members) const {
+    return std::any_of(members.begin(), members.end(), [&](std::size_t k) { return is_pinned(k); });
+  }
+
+  /// Corners of a box around pieces where they lie.
+  std::pair<glm::dvec3, glm::dvec3> extent(const std::vector<std::size_t>& members) const {
+    glm::dvec3 low(1e300);
+    glm::dvec3 high(-1e300);
+    for (const std::size_t k : members) {
+      const glm::dvec3 centre = growth_.poses[k](pieces_[k].centre());
+      low = glm::min(low, centre - pieces_[k].radius());
+      high = glm::max(high, centre + pieces_[k].radius());
+    }
+    return {low, high};
   }
 
   void tell_confidence(Result& result) const {

@@ -432,6 +432,27 @@ TEST(Constraints, PinnedPiecesStayWhereTheyAre) {
   EXPECT_EQ(result.groups, 1);
 }
 
+TEST(Constraints, OtherGroupsLieBesideThePinnedOne) {
+  const Box& box = two_balls();
+  const auto low_and_high = [&](const Result& result, std::size_t begin, std::size_t end) {
+    double low = 1e300;
+    double high = -1e300;
+    for (std::size_t k = begin; k < end; ++k) {
+      for (const glm::vec3& v : box.fragments[k].surface.vertices) {
+        const double x = result.placements[k].pose(box.fragments[k].surface.origin + glm::dvec3(v)).x;
+        low = std::min(low, x);
+        high = std::max(high, x);
+      }
+    }
+    return std::pair(low, high);
+  };
+  Options options;
+  options.constraints.pinned = {{0, box.to_world[0]}};  // in the first ball, around the frame's origin
+  const Result result = run(box, box.all_true(0.999), options);
+  ASSERT_EQ(result.groups, 2);
+  EXPECT_GT(low_and_high(result, 5, 8).first, low_and_high(result, 0, 5).second);
+}
+
 TEST(Constraints, PosesGivenAgainstOtherWishesAreKeptAndTold) {
   const Corner corner = corner_of(ball());
   const Rigid at_a = ball().to_world[corner.a];
