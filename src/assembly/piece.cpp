@@ -119,14 +119,6 @@ bool are_near(const Piece& a, const Piece& b, const Rigid& b_to_a, double distan
   return glm::distance(a.centre(), b_to_a(b.centre())) < a.radius() + b.radius() + distance;
 }
 
-double touching(const Piece& a, const Piece& b) {
-  const double ta = a.fragment().facets.wall_thickness;
-  const double tb = b.fragment().facets.wall_thickness;
-  const double thickness = ta > 0 && tb > 0 ? std::min(ta, tb) : 0.0;
-  const double scan = std::max(a.fragment().resolution, b.fragment().resolution);
-  return std::max(thickness > 0 ? 0.05 * thickness : 0.15 * std::max(a.spacing(), b.spacing()), 0.3 * scan);
-}
-
 std::vector<Facing> facing_points(const Piece& a, const Piece& b, const Rigid& b_to_a, double reach,
                                   std::size_t most) {
   std::vector<Facing> result;
@@ -152,7 +144,7 @@ std::vector<Facing> facing_points(const Piece& a, const Piece& b, const Rigid& b
 }
 
 Touch touch(const Piece& a, const Piece& b, const Rigid& b_to_a) {
-  const double tolerance = touching(a, b);
+  const double tolerance = match::contact_tolerance(a.fragment(), b.fragment());
   const double aside = std::max(a.spacing(), b.spacing());
   double touching_count = 0.0;
   std::vector<double> gaps;
@@ -169,9 +161,7 @@ Touch touch(const Piece& a, const Piece& b, const Rigid& b_to_a) {
 
 bool interpenetrate(const Piece& a, const Piece& b, const Rigid& b_to_a) {
   if (!are_near(a, b, b_to_a, 0.0)) return false;
-  const double ta = a.fragment().facets.wall_thickness;
-  const double tb = b.fragment().facets.wall_thickness;
-  const double thickness = ta > 0 && tb > 0 ? std::min(ta, tb) : 0.0;
+  const double thickness = match::thinner_wall(a.fragment(), b.fragment());
   const double scan = std::max(a.fragment().resolution, b.fragment().resolution);
   const double size = std::min(a.fragment().diameter, b.fragment().diameter);
   const double limit = std::max(thickness > 0 ? kClearly * thickness : 0.01 * size, 2.0 * scan);

@@ -70,9 +70,6 @@ std::vector<Facing> facing_points(const Piece& a, const Piece& b, const Rigid& b
 /// Whether the balls around two pieces come within a distance of each other.
 bool are_near(const Piece& a, const Piece& b, const Rigid& b_to_a, double distance);
 
-/// Distance within which broken surfaces touch: as match::Joint::tolerance().
-double touching(const Piece& a, const Piece& b);
-
 struct Touch {
   double area = 0;                                              ///< squared mesh units
   double gap_median = std::numeric_limits<double>::infinity();  ///< mesh units

@@ -68,7 +68,8 @@ class Rounds {
   Block block(const Touching& contact, const std::vector<Rigid>& poses, double share) const {
     const Piece& a = pieces_[contact.a];
     const Piece& b = pieces_[contact.b];
-    const double reach = touching(a, b) * kReachStart * std::pow(kReachEnd / kReachStart, share);
+    const double reach = match::contact_tolerance(a.fragment(), b.fragment()) * kReachStart *
+                         std::pow(kReachEnd / kReachStart, share);
     const Rigid b_to_a = inverse(poses[contact.a]) * poses[contact.b];
     Block result;
     double weight = 0.0;

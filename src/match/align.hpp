@@ -45,7 +45,7 @@ class Joint {
   /// continuation the lesser counts.
   Evidence agreed_evidence(const Rigid& pose) const;
 
-  /// Distance below which surfaces touch: a twentieth of the wall of thin pieces, or what the scans can tell.
+  /// contact_tolerance() of the two.
   double tolerance() const;
 
  private:

@@ -1,6 +1,7 @@
 /// From two fragments to the pose at which they join.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -69,6 +70,15 @@ struct Fragment {
 inline bool both_thin(const Fragment& a, const Fragment& b) {
   return a.facets.wall_thickness > 0 && b.facets.wall_thickness > 0;
 }
+
+/// Wall thickness of the thinner of two sherds, mesh units; 0 if either is none.
+inline double thinner_wall(const Fragment& a, const Fragment& b) {
+  return both_thin(a, b) ? std::min(a.facets.wall_thickness, b.facets.wall_thickness) : 0.0;
+}
+
+/// Distance below which surfaces touch, mesh units: a twentieth of the thinner wall (of solid pieces a share of the samples'
+/// spacing), or what the scans' resolution and noise can tell.
+double contact_tolerance(const Fragment& a, const Fragment& b);
 
 /// The triangles that are matched: the scan's own, or laid through the points of a cloud.
 /// \param path  for messages

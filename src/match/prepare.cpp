@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -26,12 +27,20 @@ void doubt_coarse_walls(Fragment& fragment) {
   const double across = fragment.facets.wall_thickness / mean_edge(fragment.surface);
   if (across <= 0.0 || across >= kEdgesAcross) return;
   fragment.warnings.push_back(
-      fmt::format("{}: its mesh has {:.1f} edges across the wall ({:.3g} thick); joins are hardly sure with "
+      fmt::format("{}: its mesh has {:.2f} edges across the wall ({:.3g} thick); joins are hardly sure with "
                   "fewer than {:.1f}: scan or export it more finely",
                   fragment.path, across, fragment.facets.wall_thickness, kEdgesAcross));
 }
 
 }  // namespace
+
+double contact_tolerance(const Fragment& a, const Fragment& b) {
+  constexpr double kNoiseInGaps = 2.0;  // deviations of gaps by the scans' noise alone that still touch
+  const double wall = thinner_wall(a, b);
+  const double spacing = std::max(a.facets.samples.spacing, b.facets.samples.spacing);
+  return std::max({wall > 0 ? 0.05 * wall : 0.15 * spacing, 0.3 * std::max(a.resolution, b.resolution),
+                   kNoiseInGaps * std::hypot(a.noise, b.noise)});
+}
 
 mesh::Mesh surface_of(const std::string& path, const mesh::Mesh& scan) {
   mesh::Mesh surface = scan.is_cloud() ? mesh::surface_of_cloud(scan) : scan;

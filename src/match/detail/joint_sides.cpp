@@ -7,7 +7,6 @@
 namespace rejoin::match::detail {
 namespace {
 
-constexpr double kNoiseInGaps = 2.0;    // deviations of gaps by the scans' noise alone that still touch
 constexpr double kWallClear = 0.25;     // wall thicknesses next to the seam that are left out: worn edges lie
 constexpr double kTableCell = 2.0;      // spacings: side of the cells of tables of near points
 constexpr double kTableReach = 20.0;    // tolerances: how far a quick alignment looks
@@ -58,14 +57,11 @@ Side side_of(const Fragment& fragment, double edge_radius) {
 }
 
 JointLengths lengths_of(const Fragment& a, const Fragment& b) {
-  const double ta = a.facets.wall_thickness;
-  const double tb = b.facets.wall_thickness;
   const double scan = std::max(a.resolution, b.resolution);
   JointLengths l;
-  l.thickness = both_thin(a, b) ? std::min(ta, tb) : 0.0;
+  l.thickness = thinner_wall(a, b);
   l.spacing = std::max(a.facets.samples.spacing, b.facets.samples.spacing);
-  l.tolerance = std::max({l.thickness > 0 ? 0.05 * l.thickness : 0.15 * l.spacing, 0.3 * scan,
-                          kNoiseInGaps * std::hypot(a.noise, b.noise)});
+  l.tolerance = contact_tolerance(a, b);
   l.noise = 0.05 * scan;
   l.patch = std::max({0.5 * l.thickness, 2.5 * l.spacing, 2.5 * scan});
   return l;
