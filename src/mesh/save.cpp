@@ -45,7 +45,11 @@ detail::Soup merged(const std::vector<Placed>& parts) {
 
 std::string encode(const std::filesystem::path& path, const std::vector<Placed>& parts) {
   const std::string extension = extension_of(path);
-  if (extension == ".glb") return detail::write_glb(parts);
+  if (extension == ".glb") {
+    std::string glb = detail::write_glb(parts);
+    if (glb.empty()) throw IoError(path.string(), "is more than a GLB file holds", "save it as .ply");
+    return glb;
+  }
   if (extension == ".ply") return detail::write_ply(merged(parts));
   if (extension == ".obj") return detail::write_obj(merged(parts));
   if (extension == ".drc") {

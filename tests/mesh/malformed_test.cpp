@@ -148,10 +148,38 @@ TEST_F(Malformed, CoordinatesThatAreNotFinite) {
              raw(glm::vec3(0, 1, 0)) + "\3" + raw(glm::ivec3(0, 1, 2)),
          Kind::Input, "vertex 1 is not a finite point (1, inf, 0)");
   expect("a.obj", "v 0 0 0\nv 1 0 -inf\nv 0 1 0\nf 1 2 3\n", Kind::Input, "vertex 1 is not a finite point");
-  expect("b.obj", "v 0 0 0\nv 1 0 1e300\nv 0 1 0\nf 1 2 3\n", Kind::Input, "vertex 1 is not a finite point");
+  expect("b.obj", "v 0 0 0\nv 1 0 1e300\nv 0 1 0\nf 1 2 3\n", Kind::Input,
+         "vertex 1 is not a finite point within 1e+12 (1, 0, 1e+300)");
+  expect("c.obj", "v 0 0 0\nv 1 0 1e400\nv 0 1 0\nf 1 2 3\n", Kind::Input,
+         "vertex 1 is not a finite point (1, 0, inf)");
+  expect("c.ply", ply("ascii", 3, 1) + "0 0 0\n1 0 -1e400\n0 1 0\n3 0 1 2\n", Kind::Input,
+         "vertex 1 is not a finite point (1, 0, -inf)");
+}
+
+TEST_F(Malformed, SizesWhoseAreasNoFloatHolds) {
+  const auto triangle = [](const std::string& edge) {
+    return "v 0 0 0\nv " + edge + " 0 0\nv 0 " + edge + " 0\nf 1 2 3\n";
+  };
+  expect("a.obj", triangle("1e11"), Kind::Input, "is 1.41e+11 across");
+  expect("b.obj", triangle("1e-10"), Kind::Input, "is 1.41e-10 across");
+  EXPECT_EQ(load(folder_.write("c.obj", triangle("1e8"))).mesh.faces.size(), 1U);
+  EXPECT_EQ(load(folder_.write("d.obj", triangle("1e-5"))).mesh.faces.size(), 1U);
+  EXPECT_EQ(load(folder_.write("e.obj", triangle("1") + "v 1e-400 2 0\nf 1 2 4\n")).mesh.faces.size(), 2U);
+}
+
+TEST_F(Malformed, ColoursThatAreNoNumbersAreBlack) {
+  const std::string off = "COFF\n3 1 0\n0 0 0 nan 0.5 7\n1 0 0 nan 0.5 7\n0 1 0 nan 0.5 7\n3 0 1 2\n";
+  EXPECT_EQ(load(folder_.write("a.off", off)).mesh.colours.at(0), glm::u8vec3(0, 128, 255));
 }
 
 TEST_F(Malformed, IndicesOutOfRange) {
+  const std::string beyond = "99999999999999999999";  // no integer holds it
+  expect("c.ply", ply("ascii", 3, 1) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 " + beyond + "\n", Kind::Input,
+         "face 0 refers to a vertex");
+  expect("b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 " + beyond + "\n", Kind::Input,
+         "face 0 refers to a vertex");
+  expect("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 " + beyond + "\n", Kind::Input, "refers to a vertex");
+  expect("c.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -" + beyond + "\n", Kind::Input, "refers to a vertex");
   expect("a.ply", ply("ascii", 3, 2) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 3\n", Kind::Input,
          "face 1 refers to a vertex that does not exist");
   expect("b.ply", ply("ascii", 3, 1) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n", Kind::Input,
@@ -178,6 +206,16 @@ TEST_F(Malformed, NoArea) {
   expect("a.obj", "v 1 2 3\nv 1 2 3\nv 1 2 3\n", Kind::Input, "its 1 distinct points span no area");
 }
 
+TEST_F(Malformed, StripsWithoutCorners) {
+  const std::string head = "ply\nformat ascii 1.0\nelement vertex 3\n" + kVertexHeader;
+  const std::string points = "0 0 0\n1 0 0\n0 1 0\n";
+  expect("a.ply", head + "element tristrips 1000000000000000000\nend_header\n" + points, Kind::Input,
+         "its tristrips elements have no list of vertex indices");
+  expect("b.ply",
+         head + "element tristrips 1\nproperty list int int corners\nend_header\n" + points + "3 0 1 2\n",
+         Kind::Input, "its tristrips elements have no list of vertex indices");
+}
+
 TEST_F(Malformed, Gltf) {
   const std::string asset = R"({"asset":{"version":"2.0"},)";
   expect("a.gltf", R"({"buffers":[]})", Kind::Input, "not a valid glTF file");
@@ -191,6 +229,11 @@ TEST_F(Malformed, Gltf) {
          "mesh 1 does not exist");
   expect("g.gltf", asset + R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]})", Kind::Input,
          "accessor 0 does not exist");
+  std::string chain = asset + R"("scenes":[{"nodes":[0]}],"nodes":[)";
+  for (int node = 1; node < 100000; ++node) chain += R"({"children":[)" + std::to_string(node) + "]},";
+  expect("l.gltf", chain + "{}]}", Kind::Input, "lies deeper than 1000 nodes");
+  expect("m.gltf", asset + R"("extras":)" + std::string(1000000, '[') + std::string(1000000, ']') + "}",
+         Kind::Input, "nested deeper than 200");
   const std::string mesh =
       asset + R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
               R"("buffers":[{"byteLength":4,"uri":"data:application/octet-stream;base64,AAAAAA=="}],)";

@@ -116,6 +116,20 @@ TEST_F(Read, BrokenGeoJsonIsRefused) {
   expect_refusal("d.geojson", R"({"type":7,"coordinates":3})", "no polygon");
 }
 
+TEST_F(Read, GeoJsonNestedWithoutEndIsRefused) {
+  std::string text = R"({"type":"Polygon","coordinates":[]})";
+  std::string head;
+  std::string foot;
+  for (int k = 0; k < 100000; ++k) {
+    head += R"({"type":"GeometryCollection","geometries":[)";
+    foot += "]}";
+  }
+  EXPECT_THROW(read_pieces(write("deep.geojson", head + text + foot)), InputError);
+  const std::string brackets(1000000, '[');
+  text = R"({"type":)" + brackets + std::string(1000000, ']') + "}";
+  EXPECT_THROW(read_pieces(write("type.geojson", text)), InputError);
+}
+
 TEST_F(Read, CsvWithSemicolonsMayHaveDecimalCommas) {
   const PieceSet set = read_pieces(write("a.csv", "x;y\r\n0,5;0,5\r\n10,5;0,5\r\n10,5;-1e1\r\n0,5;-10\r\n"));
   ASSERT_EQ(set.pieces.size(), 1U);

@@ -20,12 +20,14 @@ bool is_finite(const glm::dvec3& p) {
 
 void check_points(const Soup& soup, const std::string& name) {
   if (soup.points.empty()) throw InputError(name, "has no vertices", "export the scan again");
-  // Coordinates end up as floats: what overflows one is as bad as an infinity.
-  constexpr double kLargest = 1e30;
+  // Coordinates end up as floats, of which fourth powers are taken: what overflows one then is as bad as an infinity.
+  constexpr double kLargest = 1e12;
   for (std::size_t i = 0; i < soup.points.size(); ++i) {
     const glm::dvec3& p = soup.points[i];
     if (is_finite(p) && glm::all(glm::lessThan(glm::abs(p), glm::dvec3(kLargest)))) continue;
-    throw InputError(name, fmt::format("vertex {} is not a finite point ({}, {}, {})", i, p.x, p.y, p.z),
+    throw InputError(name,
+                     fmt::format("vertex {} is not a finite point{} ({}, {}, {})", i,
+                                 is_finite(p) ? fmt::format(" within {:g}", kLargest) : "", p.x, p.y, p.z),
                      "remove it in the scanning software");
   }
 }
@@ -41,6 +43,17 @@ void check_corners(const Soup& soup, const std::string& name) {
                        "export the scan again");
     }
   }
+}
+
+/// Areas are computed with floats: fourth powers of an edge must neither overflow one nor vanish in it.
+void require_usual_size(const Mesh& mesh, const std::string& name) {
+  constexpr double kSmallest = 1e-6;
+  constexpr double kLargest = 1e9;
+  const Box box = bounds(mesh);
+  const double size = glm::distance(glm::dvec3(box.low), glm::dvec3(box.high));
+  if (size >= kSmallest && size <= kLargest) return;
+  throw InputError(name, fmt::format("is {:.3g} across", size),
+                   "remove vertices far from the rest, or export it in a usual unit such as millimetres");
 }
 
 /// The point that coordinates are stored relative to: zero for a scan near the origin, so that its floats
@@ -193,6 +206,7 @@ Loaded clean(const Soup& soup, const std::string& name, Weld which) {
   } else {
     clean_faces(loaded, name);
   }
+  require_usual_size(loaded.mesh, name);
   return loaded;
 }
 

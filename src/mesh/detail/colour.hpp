@@ -1,4 +1,4 @@
-/// sRGB bytes to linear light and back (IEC 61966-2-1): glTF stores vertex colours linear.
+/// Colours as bytes; sRGB bytes to linear light and back (IEC 61966-2-1): glTF stores vertex colours linear.
 #pragma once
 
 #include <algorithm>
@@ -7,6 +7,15 @@
 #include <glm/glm.hpp>
 
 namespace rejoin::mesh::detail {
+
+/// Rounded and held within 0 .. 255; what is no number is 0.
+inline glm::u8vec3 to_bytes(const glm::dvec3& value) {
+  glm::u8vec3 bytes;
+  for (int k = 0; k < 3; ++k)
+    bytes[k] =
+        value[k] > 0 ? static_cast<std::uint8_t>(std::lround(std::min(value[k], 255.0))) : std::uint8_t{0};
+  return bytes;
+}
 
 inline glm::dvec3 to_linear(const glm::u8vec3& srgb) {
   glm::dvec3 linear;

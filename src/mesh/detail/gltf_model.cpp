@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A;
 constexpr std::uint32_t kBinaryChunk = 0x004E4942;
+constexpr int kDeepest = 200;  // JSON within JSON: what writes it again calls itself
 constexpr std::size_t kGlbHeader = 12;
 constexpr std::size_t kChunkHeader = 8;
 
@@ -85,7 +86,13 @@ void check_extensions(const nlohmann::json& root, const std::string& name) {
 
 /// The text with only what is needed.
 std::string reduced(std::string_view text, const std::string& name) {
-  nlohmann::json root = nlohmann::json::parse(text, nullptr, false);
+  const auto not_too_deep = [&name](int depth, nlohmann::json::parse_event_t /*event*/,
+                                    nlohmann::json& /*value*/) {
+    if (depth > kDeepest)
+      throw InputError(name, fmt::format("glTF JSON is nested deeper than {}", kDeepest), "export it again");
+    return true;
+  };
+  nlohmann::json root = nlohmann::json::parse(text, not_too_deep, false);
   if (root.is_discarded() || !root.is_object())
     throw InputError(name, "is not a glTF file (its JSON cannot be read)", "check the file's format");
   check_extensions(root, name);

@@ -15,6 +15,9 @@
 namespace rejoin::mesh::detail {
 namespace {
 
+/// Nodes within nodes: each takes a piece of the stack, and files come from anywhere.
+constexpr int kDeepest = 1000;
+
 /// Numbers of an accessor, `width` a row.
 struct Table {
   std::vector<double> values;
@@ -66,7 +69,7 @@ class GltfReader {
       if (static_cast<std::size_t>(wanted) >= model_.scenes.size())
         fail(fmt::format("scene {} does not exist", wanted));
       for (const int node : model_.scenes[static_cast<std::size_t>(wanted)].nodes)
-        read_node(node, glm::dmat4(1.0));
+        read_node(node, glm::dmat4(1.0), 0);
     }
     // What only some parts have is made up for the others; clean-up sees the zero normals.
     if (!soup_.normals.empty()) soup_.normals.resize(soup_.points.size(), glm::vec3(0.0F));
@@ -102,7 +105,8 @@ class GltfReader {
     return transform;
   }
 
-  void read_node(int index, const glm::dmat4& parent) {
+  void read_node(int index, const glm::dmat4& parent, int depth) {
+    if (depth > kDeepest) fail(fmt::format("node {} lies deeper than {} nodes", index, kDeepest));
     if (index < 0 || static_cast<std::size_t>(index) >= model_.nodes.size())
       fail(fmt::format("node {} does not exist", index));
     // Nodes form trees: a second visit is a loop, or the start of one.
@@ -115,7 +119,7 @@ class GltfReader {
         fail(fmt::format("mesh {} does not exist", node.mesh));
       read_mesh(model_.meshes[static_cast<std::size_t>(node.mesh)], transform);
     }
-    for (const int child : node.children) read_node(child, transform);
+    for (const int child : node.children) read_node(child, transform, depth + 1);
   }
 
   void read_mesh(const tinygltf::Mesh& mesh, const glm::dmat4& transform) {
@@ -171,8 +175,7 @@ class GltfReader {
   void add_faces(Soup& soup, int accessor, int mode) const {
     std::vector<std::uint32_t> indices;
     if (accessor >= 0) {
-      for (const double value : read_accessor(accessor).values)
-        indices.push_back(static_cast<std::uint32_t>(value));
+      for (const double value : read_accessor(accessor).values) indices.push_back(to_index(value));
     } else {
       for (std::uint32_t i = 0; i < soup.points.size(); ++i) indices.push_back(i);
     }

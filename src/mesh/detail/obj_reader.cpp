@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/detail/colour.hpp"
 #include "mesh/detail/text.hpp"
 
 namespace rejoin::mesh::detail {
@@ -45,7 +46,7 @@ class ObjReader {
     }
     if (count < 3) return;
     ++coloured_;
-    colours_.emplace_back(glm::round(glm::clamp(extra, 0.0, 1.0) * 255.0));
+    colours_.push_back(to_bytes(extra * 255.0));
   }
 
   /// Index of a corner's part: counted from 1, or back from the last one read if negative.

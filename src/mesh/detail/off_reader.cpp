@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "mesh/detail/colour.hpp"
 #include "mesh/detail/text.hpp"
 
 namespace rejoin::mesh::detail {
@@ -80,7 +81,7 @@ class OffReader {
       if (!value) return;
       colour[k] = *value * (whole ? 1.0 : 255.0);
     }
-    soup_.colours.emplace_back(glm::round(glm::clamp(colour, 0.0, 255.0)));
+    soup_.colours.push_back(to_bytes(colour));
   }
 
   void read_face() {

@@ -12,6 +12,7 @@
 #include <functional>
 
 #include "core/error.hpp"
+#include "mesh/detail/colour.hpp"
 #include "mesh/detail/ply_header.hpp"
 #include "mesh/detail/text.hpp"
 
@@ -101,6 +102,7 @@ class AsciiValues {
       const std::string_view word(at_, stop);
       place.invalid(fmt::format("\"{}\" is not a number", word), mend_of_number(word));
     }
+    if (error == std::errc::result_out_of_range) value = *to_number({at_, end});
     at_ = end;
     return value;
   }
@@ -113,16 +115,6 @@ class AsciiValues {
   const char* at_;
   const char* end_;
 };
-
-/// kNoPoint for negative and fractional indices.
-std::uint32_t to_index(double value) {
-  return value >= 0 && value < kNoPoint && value == std::floor(value) ? static_cast<std::uint32_t>(value)
-                                                                      : kNoPoint;
-}
-
-std::uint8_t to_byte(double value) {
-  return value > 0 ? static_cast<std::uint8_t>(std::lround(std::min(value, 255.0))) : std::uint8_t{0};
-}
 
 /// Columns of the vertex element that are kept: x y z, nx ny nz, red green blue; -1 where missing.
 struct Columns {
@@ -163,6 +155,7 @@ void read_element(Values& values, Place place, const std::function<void(const st
       const double count = values.next(property.count_type, place);
       if (!(count >= 0) || count != std::floor(count))
         place.invalid("a list of a negative or fractional length");
+      if (count >= kNoPoint) place.truncated();
       values.expect(static_cast<std::size_t>(count), property.type, place);
       items.resize(static_cast<std::size_t>(count));
       for (double& item : items) item = values.next(property.type, place);
@@ -188,21 +181,27 @@ void read_vertices(Values& values, const Place& place, Soup& soup) {
         soup.points.push_back(triple(row, 0));
         if (columns.has_normals) soup.normals.emplace_back(triple(row, 3));
         if (columns.has_colours) {
-          const glm::dvec3 colour = triple(row, 6) * columns.colour_scale;
-          soup.colours.emplace_back(to_byte(colour.x), to_byte(colour.y), to_byte(colour.z));
+          soup.colours.push_back(to_bytes(triple(row, 6) * columns.colour_scale));
         }
       },
       [](std::size_t, const std::vector<double>&) {});
 }
 
+/// Which property lists the corners of faces or strips.
+/// \throws InputError none does
+int corner_list(const Place& place) {
+  const PlyElement& element = *place.element;
+  const int corners = std::max(element.find("vertex_indices"), element.find("vertex_index"));
+  if (element.count > 0 && (corners < 0 || !element.properties[static_cast<std::size_t>(corners)].list)) {
+    throw InputError(*place.file, fmt::format("its {} elements have no list of vertex indices", element.name),
+                     "export the scan again");
+  }
+  return corners;
+}
+
 template <class Values>
 void read_faces(Values& values, const Place& place, Soup& soup) {
-  int corners = place.element->find("vertex_indices");
-  if (corners < 0) corners = place.element->find("vertex_index");
-  if (place.element->count > 0 &&
-      (corners < 0 || !place.element->properties[static_cast<std::size_t>(corners)].list)) {
-    throw InputError(*place.file, "its faces have no list of vertex indices", "export the scan again");
-  }
+  const int corners = corner_list(place);
   soup.sizes.reserve(place.element->count);
   soup.corners.reserve(3 * place.element->count);
   read_element(
@@ -218,7 +217,7 @@ void read_faces(Values& values, const Place& place, Soup& soup) {
 /// negative index begins a new strip.
 template <class Values>
 void read_strips(Values& values, const Place& place, Soup& soup) {
-  const int corners = place.element->find("vertex_indices");
+  const int corners = corner_list(place);
   read_element(
       values, place, [](const std::vector<double>&) {},
       [&](std::size_t property, const std::vector<double>& items) {

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cstdlib>
+#include <limits>
+#include <string>
 
 #include "core/error.hpp"
 
@@ -17,16 +20,24 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
+/// What from_chars() leaves alone because no number holds it: 0 or infinite.
+double beyond_range(std::string_view word, double /*type*/) {
+  return std::strtod(std::string(word).c_str(), nullptr);
+}
+
+/// The last number on its side of zero.
+long long beyond_range(std::string_view word, long long /*type*/) {
+  return word.starts_with('-') ? std::numeric_limits<long long>::min()
+                               : std::numeric_limits<long long>::max();
+}
+
 template <class T>
 std::optional<T> parse(std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);
   T value{};
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  // Out of range leaves 0: what is too small for a number is 0, what is too large is caught as a point far
-  // away.
-  const bool read = error == std::errc{} || error == std::errc::result_out_of_range;
-  if (word.empty() || !read || end != word.data() + word.size()) return std::nullopt;
-  return value;
+  if (error == std::errc::invalid_argument || end != word.data() + word.size()) return std::nullopt;
+  return error == std::errc::result_out_of_range ? beyond_range(word, value) : value;
 }
 
 }  // namespace

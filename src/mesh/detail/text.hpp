@@ -1,6 +1,7 @@
 /// Lines and words of text formats, with the place for errors.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string_view>
 
@@ -41,16 +42,22 @@ class TextLines {
   std::size_t number_ = 0;
 };
 
-/// A whole word as a floating-point number ("nan" and "inf" included).
+/// A whole word as a floating-point number ("nan" and "inf" included); infinite or 0 where it is beyond what one holds.
 std::optional<double> to_number(std::string_view word);
 
 /// What to do about a word that is no number.
 const char* mend_of_number(std::string_view word);
 
-/// A whole word as an integer.
+/// A whole word as an integer; the largest or smallest one where it is beyond them.
 std::optional<long long> to_integer(std::string_view word);
 
 /// An index that no point has: readers store it for negative ones, the common check names the face.
 constexpr std::uint32_t kNoPoint = 0xFFFFFFFFU;
+
+/// kNoPoint for what is no index: negative, fractional, too large or no number.
+inline std::uint32_t to_index(double value) {
+  return value >= 0 && value < kNoPoint && value == std::floor(value) ? static_cast<std::uint32_t>(value)
+                                                                      : kNoPoint;
+}
 
 }  // namespace rejoin::mesh::detail

@@ -10,19 +10,22 @@ namespace {
 
 using nlohmann::json;
 
+constexpr int kDeepest = 200;  // collections in collections
 constexpr const char* kMend = "give a GeoJSON file with Polygon or MultiPolygon geometries";
 
 class Reader {
  public:
   explicit Reader(const std::string& path) : path_(path) {}
 
-  void read(const json& value) {
-    const std::string type = value.is_object() ? value.value("type", json("")).dump() : "";
-    if (type == "\"FeatureCollection\"") return read_all(value, "features");
-    if (type == "\"GeometryCollection\"") return read_all(value, "geometries");
-    if (type == "\"Feature\"" && value.contains("geometry")) return read(value["geometry"]);
-    if (type == "\"Polygon\"") return add(member(value, "coordinates"));
-    if (type == "\"MultiPolygon\"") {
+  void read(const json& value, int depth = 0) {
+    if (depth > kDeepest) fail(fmt::format("geometries are nested deeper than {}", kDeepest));
+    const bool typed = value.is_object() && value.contains("type") && value["type"].is_string();
+    const std::string type = typed ? value["type"].get<std::string>() : "";
+    if (type == "FeatureCollection") return read_all(value, "features", depth);
+    if (type == "GeometryCollection") return read_all(value, "geometries", depth);
+    if (type == "Feature" && value.contains("geometry")) return read(value["geometry"], depth + 1);
+    if (type == "Polygon") return add(member(value, "coordinates"));
+    if (type == "MultiPolygon") {
       for (const json& polygon : member(value, "coordinates")) add(polygon);
     }
   }
@@ -30,8 +33,8 @@ class Reader {
   std::vector<Rings> result;
 
  private:
-  void read_all(const json& value, const char* name) {
-    for (const json& each : member(value, name)) read(each);
+  void read_all(const json& value, const char* name, int depth) {
+    for (const json& each : member(value, name)) read(each, depth + 1);
   }
 
   [[noreturn]] void fail(const std::string& problem) const {
