@@ -1,71 +1,144 @@
 #include "mesh/detail/triangulate.hpp"
 
+#include <limits>
+#include <queue>
 #include <span>
+#include <tuple>
 
 namespace rejoin::mesh::detail {
 namespace {
 
-/// Cuts ears off one polygon.
+/// Cuts ears off one polygon, always the one with the shortest cut, so that a quad gets its short diagonal.
 class EarCutter {
  public:
   EarCutter(const std::vector<glm::dvec3>& points, std::span<const std::uint32_t> corners)
-      : points_(points), left_(corners.begin(), corners.end()) {
+      : points_(points), corners_(corners), left_(corners.size()), before_(left_), after_(left_) {
     // Newell's normal: right for every simple polygon, flat or nearly so.
-    for (std::size_t i = 0; i < left_.size(); ++i) {
-      normal_ += glm::cross(point(i) - point(0), point(i + 1) - point(0));
+    for (std::size_t i = 0; i < left_; ++i) {
+      after_[i] = i + 1 < left_ ? i + 1 : 0;
+      before_[i] = i > 0 ? i - 1 : left_ - 1;
+      normal_ += glm::cross(point(i) - point(0), point(after_[i]) - point(0));
     }
+    place_in_hollow_.assign(left_, kNone);
+    stopped_by_.resize(left_);
+    states_.assign(left_, 0);
+    for (std::size_t i = 0; i < left_; ++i) look_at(i);
   }
 
   void cut(std::vector<glm::uvec3>& faces) {
-    while (left_.size() > 3) {
-      const std::size_t ear = best_ear();
-      faces.emplace_back(corner(ear + left_.size() - 1), corner(ear), corner(ear + 1));
-      left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(ear));
+    while (left_ > 3) {
+      const std::size_t ear = shortest_ear();
+      add_face(ear, faces);
+      remove(ear);
     }
-    faces.emplace_back(left_[0], left_[1], left_[2]);
+    add_face(after_[first_], faces);
   }
 
  private:
-  std::uint32_t corner(std::size_t i) const { return left_[i % left_.size()]; }
-  const glm::dvec3& point(std::size_t i) const { return points_[corner(i)]; }
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+  /// A corner that may be cut off; nothing if the corner has changed since.
+  struct Candidate {
+    double length;  ///< of the cut, squared
+    std::size_t at;
+    std::uint32_t state;
+    bool operator<(const Candidate& other) const {  // the shortest first, then the one that comes first
+      return std::tie(other.length, other.at) < std::tie(length, at);
+    }
+  };
+
+  const glm::dvec3& point(std::size_t i) const { return points_[corners_[i]]; }
+
+  void add_face(std::size_t ear, std::vector<glm::uvec3>& faces) const {
+    faces.emplace_back(corners_[before_[ear]], corners_[ear], corners_[after_[ear]]);
+  }
 
   /// Signed area (times two, times the normal's length) of a triangle seen along the normal.
   double turn(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) const {
     return glm::dot(normal_, glm::cross(b - a, c - a));
   }
 
-  bool is_ear(std::size_t i) const {
-    const std::size_t count = left_.size();
-    const glm::dvec3& a = point(i + count - 1);
-    const glm::dvec3& b = point(i);
-    const glm::dvec3& c = point(i + 1);
-    if (turn(a, b, c) <= 0) return false;
-    for (std::size_t k = i + 2; k + 1 < i + count; ++k) {
-      const glm::dvec3& p = point(k);
-      if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0) return false;
+  /// Files a corner among those that may be cut or those that the border turns in at, after its neighbours changed.
+  void look_at(std::size_t i) {
+    ++states_[i];
+    if (turn(point(before_[i]), point(i), point(after_[i])) > 0) {
+      leave_hollow(i);
+      offer(i);
+    } else if (place_in_hollow_[i] == kNone) {
+      place_in_hollow_[i] = hollow_.size();
+      hollow_.push_back(i);
     }
-    return true;
   }
 
-  /// The ear with the shortest cut, so that a quad gets its short diagonal; corner 1 where a polygon has no
-  /// ear (a fan then).
-  std::size_t best_ear() const {
-    std::size_t best = left_.size();
-    double shortest = 0;
-    for (std::size_t i = 0; i < left_.size(); ++i) {
-      const glm::dvec3 cut = point(i + left_.size() - 1) - point(i + 1);
-      const double length = glm::dot(cut, cut);
-      if ((best == left_.size() || length < shortest) && is_ear(i)) {
-        best = i;
-        shortest = length;
-      }
+  void offer(std::size_t i) {
+    const glm::dvec3 cut = point(before_[i]) - point(after_[i]);
+    candidates_.push({glm::dot(cut, cut), i, states_[i]});
+  }
+
+  /// The corner stops no ear any longer.
+  void leave_hollow(std::size_t i) {
+    if (place_in_hollow_[i] == kNone) return;
+    const std::size_t last = hollow_.back();
+    hollow_[place_in_hollow_[i]] = last;
+    place_in_hollow_[last] = place_in_hollow_[i];
+    hollow_.pop_back();
+    place_in_hollow_[i] = kNone;
+    for (const Candidate& stopped : stopped_by_[i])
+      if (states_[stopped.at] == stopped.state) candidates_.push(stopped);
+    stopped_by_[i].clear();
+  }
+
+  /// A corner where the border turns in that lies in the triangle to be cut off; kNone: it is an ear.
+  std::size_t stopper(std::size_t i) const {
+    const glm::dvec3& a = point(before_[i]);
+    const glm::dvec3& b = point(i);
+    const glm::dvec3& c = point(after_[i]);
+    for (const std::size_t k : hollow_) {
+      if (k == before_[i] || k == after_[i]) continue;
+      const glm::dvec3& p = point(k);
+      if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0) return k;
     }
-    return best == left_.size() ? 1 : best;
+    return kNone;
+  }
+
+  /// The second corner left where a polygon has no ear (a fan then).
+  std::size_t shortest_ear() {
+    while (!candidates_.empty()) {
+      const Candidate best = candidates_.top();
+      candidates_.pop();
+      if (states_[best.at] != best.state) continue;
+      const std::size_t in_the_way = stopper(best.at);
+      if (in_the_way == kNone) return best.at;
+      stopped_by_[in_the_way].push_back(best);
+    }
+    return after_[first_];
+  }
+
+  void remove(std::size_t i) {
+    ++states_[i];
+    leave_hollow(i);
+    const std::size_t before = before_[i];
+    const std::size_t after = after_[i];
+    after_[before] = after;
+    before_[after] = before;
+    if (i == first_) first_ = after;
+    --left_;
+    look_at(before);
+    look_at(after);
   }
 
   const std::vector<glm::dvec3>& points_;
-  std::vector<std::uint32_t> left_;
+  std::span<const std::uint32_t> corners_;
+  std::size_t left_;                 ///< corners
+  std::vector<std::size_t> before_;  ///< each corner's neighbours among those left
+  std::vector<std::size_t> after_;
+  std::size_t first_ = 0;
   glm::dvec3 normal_{0.0};
+  std::vector<std::uint32_t> states_;  ///< how often a corner's neighbours have changed
+  std::priority_queue<Candidate> candidates_;
+  std::vector<std::size_t> hollow_;                 ///< corners where the border turns in
+  std::vector<std::size_t> place_in_hollow_;        ///< of each corner
+  std::vector<std::vector<Candidate>> stopped_by_;  ///< what cannot be cut because of each corner
 };
 
 }  // namespace
