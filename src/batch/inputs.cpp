@@ -28,7 +28,7 @@ constexpr std::array<std::string_view, 4> kModels{"assembled.glb", "assembled.pl
 
 bool is_scan(const fs::directory_entry& entry) {
   std::error_code ignored;
-  if (entry.is_directory(ignored)) return false;
+  if (entry.is_directory(ignored) || entry.is_other(ignored)) return false;  // a pipe would be waited for
   if (entry.path().filename().string().starts_with('.'))
     return false;  // hidden, as macOS leaves one beside every file
   if (std::ranges::find(kModels, entry.path().filename()) != kModels.end()) return false;

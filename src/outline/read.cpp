@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <exception>
 #include <filesystem>
+#include <new>
 #include <optional>
 #include <regex>
 
@@ -216,6 +218,11 @@ PieceSet read_folder(const std::string& folder, const ExtractOptions& options) {
       std::move(set.notes.begin(), set.notes.end(), std::back_inserter(all.notes));
     } catch (const Error& error) {
       all.unusable.push_back({file.filename().string(), error.what()});
+    } catch (const std::bad_alloc&) {
+      all.unusable.push_back({file.filename().string(), file.string() + ": out of memory; save it smaller"});
+    } catch (const std::exception& error) {  // of a library, such as OpenCV
+      all.unusable.push_back({file.filename().string(), fmt::format("{}: cannot be used ({}); save it again",
+                                                                    file.string(), error.what())});
     }
   }
   doubt_resolutions(files, all.notes);

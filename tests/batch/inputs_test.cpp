@@ -1,6 +1,7 @@
 #include "batch/inputs.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -32,6 +33,7 @@ TEST_F(Inputs, ScansAreFoundByExtensionInAnyCaseAndSorted) {
                            "assembled.ply", "joined.glb"})
     put(name, "x");
   fs::create_directory(folder_ / "folder.ply");
+  ASSERT_EQ(mkfifo((folder_ / "pipe.ply").c_str(), 0600), 0);
   EXPECT_EQ(find_scans(folder_), (std::vector<std::string>{"a.drc", "b.PLY", "c.glb"}));
 }
 
