@@ -109,7 +109,10 @@ match::Fragment load_prepared(const store::Fragment& fragment, const fs::path& c
     warnings = std::move(loaded.warnings);
     require_body(loaded.mesh, fragment.path);
     keep(kept, match::surface_of(fragment.path, loaded.mesh));
-    surface = mesh::load(kept).mesh;
+    surface = kept_surface(fragment, cache);
+    if (!surface)
+      throw InputError(fragment.path, "has no surface left where it is kept to a millionth of its size",
+                       "remove vertices far from the rest");
   }
   match::Fragment prepared = match::prepare(fragment.path, std::move(*surface), context);
   prepared.warnings.insert(prepared.warnings.begin(), warnings.begin(), warnings.end());

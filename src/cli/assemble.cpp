@@ -70,7 +70,7 @@ class AssembleCommand final : public Command {
     if (constraints_) read_constraints(*constraints_, names_in(input_));  // before hours of matching
     const AssembleInput input = read_assemble_input(input_, keep, console, context);
     if (context.cancelled()) return stopped(console);
-    if (constraints_) options_.constraints = read_constraints(*constraints_, input.names);
+    if (constraints_) options_.constraints = read_constraints(*constraints_, input.names, input.bad);
     const assembly::Result result = assembly::assemble(input.fragments, input.links, options_, context);
     console.end_progress();
     for (const std::string& warning : warnings_of(input, result)) console.warning(warning);

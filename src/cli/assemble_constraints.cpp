@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -20,7 +21,9 @@ constexpr const char* kMend = "see \"Constraints\" in docs/box-of-sherds.md";
 
 class Reader {
  public:
-  Reader(const std::string& path, const std::vector<std::string>& names) : path_(path), names_(names) {}
+  Reader(const std::string& path, const std::vector<std::string>& names,
+         const std::map<std::string, std::string>& unusable)
+      : path_(path), names_(names), unusable_(unusable) {}
 
   assembly::Constraints read() const {
     const ordered_json json = parsed();
@@ -64,6 +67,9 @@ class Reader {
 
   std::size_t number_of(const ordered_json& name, const std::string& place) const {
     if (!name.is_string()) fail(place + " is no name of a fragment");
+    const auto unusable = unusable_.find(name.get<std::string>());
+    if (unusable != unusable_.end())
+      fail(fmt::format("{}: \"{}\" can have no place ({})", place, unusable->first, unusable->second));
     const auto found = std::find(names_.begin(), names_.end(), name.get<std::string>());
     if (found == names_.end())
       fail(fmt::format("{}: there is no fragment \"{}\"", place, name.get<std::string>()));
@@ -104,12 +110,14 @@ class Reader {
 
   const std::string& path_;
   const std::vector<std::string>& names_;
+  const std::map<std::string, std::string>& unusable_;
 };
 
 }  // namespace
 
-assembly::Constraints read_constraints(const std::string& path, const std::vector<std::string>& names) {
-  return Reader(path, names).read();
+assembly::Constraints read_constraints(const std::string& path, const std::vector<std::string>& names,
+                                       const std::map<std::string, std::string>& unusable) {
+  return Reader(path, names, unusable).read();
 }
 
 }  // namespace rejoin::cli

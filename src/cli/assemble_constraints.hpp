@@ -1,6 +1,7 @@
 /// The file of --constraints.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -9,9 +10,11 @@
 namespace rejoin::cli {
 
 /// Reads {"must_join": [[A, B], ...], "must_not_join": [[A, B], ...], "poses": {A: 4 x 4, ...}}; every part may be missing.
-/// \param names  of the fragments; those in the file are these
+/// \param names     of the fragments; those in the file are these
+/// \param unusable  other fragments, with the reasons, for the message
 /// \throws IoError it cannot be read   \throws InputError it is no such file, names a fragment that is not there, a fragment
 ///         with itself, or a pair as both
-assembly::Constraints read_constraints(const std::string& path, const std::vector<std::string>& names);
+assembly::Constraints read_constraints(const std::string& path, const std::vector<std::string>& names,
+                                       const std::map<std::string, std::string>& unusable = {});
 
 }  // namespace rejoin::cli

@@ -39,7 +39,7 @@ std::string matrix_text(const Rigid& pose) {
   return text + "0 0 0 1\n";
 }
 
-/// For an attribute's value in XML; control characters, which XML knows no way to write, become '?'.
+/// For an attribute's value in XML; control characters that XML knows no way to write become '?'.
 std::string xml_text(const std::string& text) {
   std::string result;
   for (const char c : text) {
@@ -55,6 +55,11 @@ std::string xml_text(const std::string& text) {
         break;
       case '"':
         result += "&quot;";
+        break;
+      case '\t':
+      case '\n':
+      case '\r':  // as they are, they would be read as blanks
+        result += fmt::format("&#{};", static_cast<int>(c));
         break;
       default:
         result += static_cast<unsigned char>(c) < 0x20 ? '?' : c;

@@ -17,6 +17,7 @@
 #include "cli/command.hpp"
 #include "cli/help.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/outputs.hpp"
 #include "core/files.hpp"
 #include "core/parallel.hpp"
 #include "core/version.hpp"
@@ -94,7 +95,9 @@ int run(const std::vector<Entry>& entries, const Common& common) {
   Context context([&console](std::string_view stage, double fraction) { console.progress(stage, fraction); });
   const Interrupt interrupt(context);
   for (const Entry& entry : entries) {
-    if (entry.app->parsed()) return entry.command->run(console, context);
+    if (!entry.app->parsed()) continue;
+    require_outputs_apart(*entry.app);
+    return entry.command->run(console, context);
   }
   throw UsageError("command line", "no command is given", "see rejoin --help");
 }

@@ -15,7 +15,7 @@ assembly::Constraints read(const std::string& content) {
   const TemporaryFolder folder;
   const std::string path = folder / "wishes.json";
   write_file(path, content);
-  return read_constraints(path, kNames);
+  return read_constraints(path, kNames, {{"copy.ply", "is the same scan as a.ply, which stands for both"}});
 }
 
 TEST(ReadConstraints, FindsPairsAndPosesByName) {

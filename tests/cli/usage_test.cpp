@@ -34,6 +34,24 @@ TEST(CommandLine, ResultsThatADiskHadNoRoomForAreNoSuccess) {
   }
 }
 
+TEST(CommandLine, OutputsThatWouldTakeWhatIsReadAreRefused) {
+  const TemporaryFolder folder;
+  const std::string scan = folder / "scan.ply";
+  const std::string other = folder / "other.ply";
+  const std::string piece = folder / "piece.csv";
+  for (const std::string& file : {scan, other, piece}) write_file(file, "precious");
+  const std::vector<std::vector<std::string>> commands{{"match", scan, other, "--json", other},
+                                                       {"facets", scan, "--ply", folder / "./scan.ply"},
+                                                       {"assemble", folder / ".", "--json", other},
+                                                       {"outline", "match", piece, other, "--json", piece}};
+  for (const auto& command : commands) {
+    const Finished finished = run(command);
+    EXPECT_EQ(finished.exit_code, 2) << command[0];
+    EXPECT_NE(finished.err.find("is read too and would be lost"), std::string::npos) << finished.err;
+  }
+  for (const std::string& file : {scan, other, piece}) EXPECT_EQ(read_file(file), "precious") << file;
+}
+
 class WrongUseTest : public ::testing::TestWithParam<WrongUse> {};
 
 TEST_P(WrongUseTest, IsOneLineOnStderrAndExitsWithTwo) {
@@ -54,6 +72,10 @@ INSTANTIATE_TEST_SUITE_P(
                  {"outline", "mtch", "a.png", "b.png"},
                  "'mtch' is no command; there are calibrate, match"},
         WrongUse{"NoOutlineCommand", {"outline"}, "no command"},
+        WrongUse{"OutputWithoutAName", {"batch", "scans", "--out", ""}, "--out: has no name"},
+        WrongUse{"FolderNamedLikeAFile",
+                 {"assemble", "scans", "--out", "poses.json"},
+                 "poses.json: has the name of a file, but --out takes a folder"},
         WrongUse{"FirstOfTwoUnknownOptions",
                  {"match", "a.ply", "--sed", "3", "--colour"},
                  "--sed is no option of rejoin match"},

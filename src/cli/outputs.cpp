@@ -1,0 +1,83 @@
+#include "cli/outputs.hpp"
+
+#include <fmt/core.h>
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "cli/command.hpp"
+#include "core/files.hpp"
+#include "mesh/load.hpp"
+
+namespace rejoin::cli {
+namespace fs = std::filesystem;
+namespace {
+
+bool is_same(const fs::path& a, const fs::path& b) {
+  std::error_code absent;
+  return fs::equivalent(a, b, absent);
+}
+
+/// Whether writing `output` takes something of `input`, a file or a folder.
+bool would_destroy(const fs::path& output, const fs::path& input) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(output, ignored)) return false;
+  if (is_same(output, input)) return true;
+  return fs::is_directory(input, ignored) && mesh::has_scan_name(output) &&
+         is_same(fs::absolute(output).parent_path(), input);
+}
+
+bool has_name_of_a_file(const fs::path& path) {
+  constexpr std::array kEndings{".json", ".html", ".csv", ".png", ".ply", ".glb", ".obj"};
+  const std::string ending = extension_of(path);
+  return std::ranges::any_of(kEndings, [&](const char* known) { return ending == known; });
+}
+
+void require_file(const CLI::Option& option, const std::string& value,
+                  const std::vector<std::string>& inputs) {
+  for (const std::string& input : inputs) {
+    if (!would_destroy(value, input)) continue;
+    throw UsageError(value, "is read too and would be lost",
+                     fmt::format("give {} another file", option.get_name()));
+  }
+}
+
+void require_folder(const CLI::Option& option, const std::string& value) {
+  std::error_code ignored;
+  if (fs::is_directory(value, ignored) || !has_name_of_a_file(value)) return;
+  throw UsageError(value, fmt::format("has the name of a file, but {} takes a folder", option.get_name()),
+                   "name a folder");
+}
+
+std::vector<std::string> values_of(const CLI::App& command, const std::string& group) {
+  std::vector<std::string> values;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_group() != group) continue;
+    values.insert(values.end(), option->results().begin(), option->results().end());
+  }
+  return values;
+}
+
+}  // namespace
+
+void require_outputs_apart(const CLI::App& command) {
+  const std::vector<std::string> inputs = values_of(command, "Input");
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string type = option->get_type_name();
+    if (option->get_group() != "Output" || (type != "FILE" && type != "DIR" && type != "RUN")) continue;
+    for (const std::string& value : option->results()) {
+      if (value.empty()) throw UsageError(option->get_name(), "has no name", "name what is to be written");
+      if (type == "FILE") {
+        require_file(*option, value, inputs);
+      } else {
+        require_folder(*option, value);
+      }
+    }
+  }
+  for (const CLI::App* used : command.get_subcommands()) require_outputs_apart(*used);
+}
+
+}  // namespace rejoin::cli
