@@ -55,8 +55,8 @@ PairTruth::PairTruth(const match::Fragment& a, const match::Fragment& b, const R
     }
     return points;
   };
-  points_ = points_of(b.scan);
-  std::vector<glm::dvec3> both = points_of(a.scan);
+  points_ = points_of(b.surface);
+  std::vector<glm::dvec3> both = points_of(a.surface);
   for (const glm::dvec3& p : points_) both.push_back(pose(p));
   glm::dvec3 low = both.front();
   glm::dvec3 high = low;

@@ -108,7 +108,7 @@ match::Fragment load_prepared(const store::Fragment& fragment, const fs::path& c
     mesh::Loaded loaded = mesh::load(fragment.path);
     warnings = std::move(loaded.warnings);
     require_body(loaded.mesh, fragment.path);
-    keep(kept, match::surface_of(fragment.path, loaded.mesh));
+    keep(kept, match::surface_of(fragment.path, std::move(loaded.mesh)));
     surface = kept_surface(fragment, cache);
     if (!surface)
       throw InputError(fragment.path, "has no surface left where it is kept to a millionth of its size",

@@ -48,8 +48,8 @@ match::Fragment load_fragment(const std::string& path, Console& console, const C
   double seconds = 0;
   for (const StageTime& stage : fragment.stages) seconds += stage.seconds;
   console.detail(fmt::format("{}: {} points, {} faces, diameter {:.4g}; made ready in {:.2f} s", path,
-                             fragment.scan.vertices.size(), fragment.surface.faces.size(), fragment.diameter,
-                             seconds));
+                             fragment.surface.vertices.size(), fragment.surface.faces.size(),
+                             fragment.diameter, seconds));
   return fragment;
 }
 

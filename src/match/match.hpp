@@ -50,9 +50,8 @@ struct Options {
 /// A fragment made ready: surface, level of detail, facets.
 struct Fragment {
   std::string path;
-  mesh::Mesh scan;            ///< as loaded (after clean-up)
-  mesh::Mesh surface;         ///< triangles at full resolution: the scan, or the surface of its cloud
-  mesh::Mesh coarse;          ///< a level of detail for depth maps: at most 40,000 faces
+  mesh::Mesh surface;  ///< triangles at full resolution: the scan after clean-up, or the surface of its cloud
+  mesh::Mesh coarse;   ///< a level of detail for depth maps: at most 40,000 faces
   mesh::Segmentation facets;  ///< of `surface`
   double diameter = 0;        ///< mesh units
   double resolution = 0;      ///< sample spacing, mesh units
@@ -83,7 +82,7 @@ double contact_tolerance(const Fragment& a, const Fragment& b);
 /// The triangles that are matched: the scan's own, or laid through the points of a cloud.
 /// \param path  for messages
 /// \throws InputError  nothing can be laid through the points
-mesh::Mesh surface_of(const std::string& path, const mesh::Mesh& scan);
+mesh::Mesh surface_of(const std::string& path, mesh::Mesh scan);
 
 /// \param scan  what load() gave
 /// \throws InputError  as surface_of()

@@ -42,8 +42,8 @@ double contact_tolerance(const Fragment& a, const Fragment& b) {
                    kNoiseInGaps * std::hypot(a.noise, b.noise)});
 }
 
-mesh::Mesh surface_of(const std::string& path, const mesh::Mesh& scan) {
-  mesh::Mesh surface = scan.is_cloud() ? mesh::surface_of_cloud(scan) : scan;
+mesh::Mesh surface_of(const std::string& path, mesh::Mesh scan) {
+  mesh::Mesh surface = scan.is_cloud() ? mesh::surface_of_cloud(scan) : std::move(scan);
   if (surface.faces.empty()) {
     throw InputError(path, "no surface could be laid through its points", "scan it more densely");
   }
@@ -54,9 +54,8 @@ Fragment prepare(std::string path, mesh::Mesh scan, const Context& context) {
   context.report("prepare " + path, 0.0);
   Fragment fragment;
   fragment.path = std::move(path);
-  fragment.scan = std::move(scan);
   Stopwatch clock(fragment.stages);
-  fragment.surface = surface_of(fragment.path, fragment.scan);
+  fragment.surface = surface_of(fragment.path, std::move(scan));
   clock.lap("surface");
   fragment.coarse = fragment.surface.faces.size() > kCoarseFaces
                         ? mesh::simplify(fragment.surface, kCoarseFaces)

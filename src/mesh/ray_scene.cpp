@@ -26,16 +26,15 @@ RayScene::RayScene(const Mesh& mesh) : impl_(std::make_unique<Impl>()) {
   if (impl_->device == nullptr)
     throw BackendError("Embree", "no device could be made", "check the libembree3 package");
   impl_->scene = rtcNewScene(impl_->device);
-  rtcSetSceneFlags(impl_->scene, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneFlags(impl_->scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT));
   RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
   void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                            sizeof(glm::vec3), mesh.vertices.size());
-  void* faces = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                        sizeof(glm::uvec3), mesh.faces.size());
-  if (vertices == nullptr || faces == nullptr)
-    throw BackendError("Embree", "out of memory", "simplify the scan");
+  if (vertices == nullptr) throw BackendError("Embree", "out of memory", "simplify the scan");
   std::memcpy(vertices, mesh.vertices.data(), mesh.vertices.size() * sizeof(glm::vec3));
-  std::memcpy(faces, mesh.faces.data(), mesh.faces.size() * sizeof(glm::uvec3));
+  // Not so the vertices: Embree may read a little beyond the last one.
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.faces.data(), 0,
+                             sizeof(glm::uvec3), mesh.faces.size());
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(impl_->scene, geometry);
   rtcReleaseGeometry(geometry);

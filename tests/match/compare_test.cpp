@@ -36,7 +36,7 @@ mesh::Mesh sheet(int n, bool up) {
 
 Fragment fragment(bool up, int fine, int coarse) {
   Fragment result;
-  result.surface = result.scan = sheet(fine, up);
+  result.surface = sheet(fine, up);
   result.coarse = sheet(coarse, up);
   result.diameter = mesh::diameter(result.surface);
   result.resolution = mesh::resolution(result.surface);
