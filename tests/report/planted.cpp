@@ -64,7 +64,7 @@ Planted planted_pair(int n) {
   const auto prepared = [](std::string path, mesh::Mesh surface) {
     match::Fragment fragment;
     fragment.path = std::move(path);
-    fragment.scan = fragment.surface = fragment.coarse = std::move(surface);
+    fragment.surface = fragment.coarse = std::move(surface);
     fragment.diameter = mesh::diameter(fragment.surface);
     fragment.resolution = mesh::resolution(fragment.surface);
     return fragment;
