@@ -57,6 +57,7 @@ class Assembler {
   /// Joins groups, the most telling bundle first, until no bundle is left that holds.
   void grow(const Context& context) {
     refused_.clear();
+    bundles_.clear();
     const std::size_t most = layout_.size();
     for (std::size_t done = 0;;) {
       const std::vector<Bundle> bundles = sorted_bundles();
@@ -67,11 +68,21 @@ class Assembler {
         return false;
       });
       if (good == bundles.end()) return;
+      forget_bundles_of(good->first, good->second);
       context.report("assembling", static_cast<double>(++done) / static_cast<double>(most));
     }
   }
 
-  std::vector<Bundle> sorted_bundles() const {
+  /// Before groups changed that are one now.
+  void forget_bundles_of(std::size_t first, std::size_t second) {
+    std::erase_if(bundles_, [&](const auto& known) {
+      const auto& [groups, bundles] = known;
+      return groups.first == first || groups.first == second || groups.second == first ||
+             groups.second == second;
+    });
+  }
+
+  std::vector<Bundle> sorted_bundles() {
     std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> between;
     for (std::size_t i = 0; i < links_.size(); ++i) {
       const std::size_t a = layout_.group(links_[i].a);
@@ -79,7 +90,11 @@ class Assembler {
       if (a != b) between[std::minmax(a, b)].push_back(i);
     }
     std::vector<Bundle> bundles;
-    for (const auto& [groups, indices] : between) add_bundles(groups.first, groups.second, indices, bundles);
+    for (const auto& [groups, indices] : between) {
+      const auto [known, fresh] = bundles_.try_emplace(groups);
+      if (fresh) known->second = bundles_between(groups.first, groups.second, indices);
+      bundles.insert(bundles.end(), known->second.begin(), known->second.end());
+    }
     std::stable_sort(bundles.begin(), bundles.end(),
                      [](const Bundle& p, const Bundle& q) { return p.information > q.information; });
     return bundles;
@@ -90,8 +105,9 @@ class Assembler {
     return layout_.group(link.a) == first ? moved : inverse(moved);
   }
 
-  void add_bundles(std::size_t first, std::size_t second, const std::vector<std::size_t>& indices,
-                   std::vector<Bundle>& bundles) const {
+  std::vector<Bundle> bundles_between(std::size_t first, std::size_t second,
+                                      const std::vector<std::size_t>& indices) const {
+    std::vector<Bundle> bundles;
     std::vector<Planar> moves;
     std::vector<Motion> motions;
     for (const std::size_t index : indices) {
@@ -117,6 +133,7 @@ class Assembler {
       for (const auto& [pair, value] : best) bundle.information += value;
       bundles.push_back(bundle);
     }
+    return bundles;
   }
 
   /// A bundle by its seed and the sizes of its groups: as groups grow, what was refused may hold.
@@ -197,6 +214,7 @@ class Assembler {
   const AssemblyOptions& options_;
   Layout layout_;
   std::set<std::array<std::size_t, 3>> refused_;
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<Bundle>> bundles_;  // between groups as they are
 };
 
 /// The best score that the search for pairs gave a join at about the pose in which the pieces lie now; none if it proposed

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "core/random.hpp"
+#include "outline/detail/diagonals.hpp"
 
 namespace rejoin::outline::detail {
 namespace {
@@ -52,6 +54,76 @@ TEST(Pairing, SamplesWithoutReliefGainNothing) {
   const std::vector<PairedSamples> path{{0, 0}, {1, 1}, {2, 2}};
   EXPECT_DOUBLE_EQ(discriminant({&flat, &flat}, path, {1.0, 1.0, 2.0}), 2.0);
   EXPECT_TRUE(initial_candidates({&flat, &flat}, {1.0, 1.0, 2.0}, 3, 10).empty());
+}
+
+/// One diagonal after the other, sample by sample.
+std::vector<Stretch> stretches_one_by_one(const Sequence& a, const Sequence& b, const StretchRule& rule) {
+  const auto size_a = static_cast<int>(a.values.size());
+  const auto size_b = static_cast<int>(b.values.size());
+  const int count = size_a + std::min(size_a, size_b);
+  const auto xi2 = static_cast<float>(rule.xi2);
+  const auto drop = static_cast<float>(6.0 * rule.xi2);
+  std::vector<Stretch> found;
+  for (int first = 0; first < size_b; ++first) {
+    Stretch stretch{0, first, 0, 0.0};
+    float gain = 0.0F;
+    float best = 0.0F;
+    const auto end_stretch = [&](int next) {
+      if (stretch.length >= rule.least && best > rule.least_gain) {
+        stretch.length = std::min({stretch.length, size_a, size_b});
+        stretch.gain = best;
+        found.push_back(stretch);
+      }
+      stretch = {next, first + next, 0, 0.0};
+      gain = best = 0.0F;
+    };
+    bool open = true;
+    for (int t = 0; t < count && open; ++t) {
+      const auto i = static_cast<std::size_t>(t % size_a);
+      const auto j = static_cast<std::size_t>((first + t) % size_b);
+      const float d = a.values[i] - b.values[j];
+      gain += xi2 * a.relief[i] * b.relief[j] - d * d;
+      if (gain > best) {
+        best = gain;
+        stretch.length = t + 1 - stretch.i;
+      } else if (gain <= 0.0F || gain < best - drop) {
+        end_stretch(t + 1);
+        open = t < size_a;
+      }
+    }
+    if (open) end_stretch(count);
+  }
+  return found;
+}
+
+TEST(Diagonals, SeveralAtATimeAreAsOneByOne) {
+  Random random(9);
+  const auto in_order = [](std::vector<Stretch> list) {
+    std::sort(list.begin(), list.end(), [](const Stretch& x, const Stretch& y) {
+      return std::tie(x.j, x.i, x.length) < std::tie(y.j, y.i, y.length);
+    });
+    return list;
+  };
+  std::size_t all = 0;
+  for (std::size_t size_a = 5; size_a < 90; size_a += 7) {
+    for (std::size_t size_b = 3; size_b < 90; size_b += 5) {
+      const Sequence a = random_sequence(size_a, random);
+      Sequence b = random_sequence(size_b, random);
+      for (float& relief : b.relief) relief = static_cast<float>(random.uniform());
+      for (std::size_t k = 0; k < std::min(size_a, size_b) / 2; ++k) b.values[k] = a.values[k];
+      const StretchRule rule{1.3, 0.4, 2};
+      const auto expected = in_order(stretches_one_by_one(a, b, rule));
+      const auto found = in_order(find_stretches({&a, &b}, rule));
+      ASSERT_EQ(found.size(), expected.size()) << size_a << " x " << size_b;
+      for (std::size_t k = 0; k < found.size(); ++k) {
+        EXPECT_EQ(std::tie(found[k].i, found[k].j, found[k].length, found[k].gain),
+                  std::tie(expected[k].i, expected[k].j, expected[k].length, expected[k].gain))
+            << size_a << " x " << size_b;
+      }
+      all += found.size();
+    }
+  }
+  EXPECT_GT(all, 10000U) << "there must be something to compare";
 }
 
 /// Least discriminant of all paths between two cells of a small grid, by trying every one.

@@ -103,10 +103,13 @@ class Fitter {
     const auto middle = static_cast<std::int64_t>(std::lround(expected));
     Contact best;
     double best_square = 1e300;
-    glm::dvec2 next = sample_point(*b_.signal, middle - kWindow);
+    const std::vector<glm::dvec2>& points = b_.signal->points;
+    std::size_t at = wrapped(middle - kWindow, points.size());
+    glm::dvec2 next = points[at];
     for (std::int64_t j = middle - kWindow; j < middle + kWindow; ++j) {
       const glm::dvec2 from = next;
-      next = sample_point(*b_.signal, j + 1);
+      if (++at == points.size()) at = 0;
+      next = points[at];
       const glm::dvec2 edge = next - from;
       const double square = glm::dot(edge, edge);
       const double share = square > 0.0 ? std::clamp(glm::dot(point - from, edge) / square, 0.0, 1.0) : 0.0;
@@ -263,10 +266,13 @@ double sample_of(const Border& border, double place) {
   const std::vector<double>& places = border.signal->places;
   const double turns = std::floor(place / border.perimeter);
   const double rest = place - turns * border.perimeter;
-  const auto above = std::upper_bound(places.begin(), places.end(), rest);
   const auto count = static_cast<double>(places.size());
-  if (above == places.begin()) return turns * count + (rest - places.front()) / (places[1] - places[0]);
-  const auto k = static_cast<std::size_t>(above - places.begin()) - 1;
+  // Samples lie nearly evenly, so the first place above is near.
+  std::size_t above = std::min(static_cast<std::size_t>(rest / border.perimeter * count), places.size());
+  while (above < places.size() && places[above] <= rest) ++above;
+  while (above > 0 && places[above - 1] > rest) --above;
+  if (above == 0) return turns * count + (rest - places.front()) / (places[1] - places[0]);
+  const std::size_t k = above - 1;
   const double next = k + 1 < places.size() ? places[k + 1] : places[0] + border.perimeter;
   return turns * count + static_cast<double>(k) + (rest - places[k]) / (next - places[k]);
 }
