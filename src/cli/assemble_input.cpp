@@ -4,7 +4,8 @@
 
 #include <fmt/core.h>
 
-#include <memory>
+#include <mutex>
+#include <optional>
 #include <system_error>
 
 #include "batch/batch.hpp"
@@ -13,50 +14,92 @@
 #include "cli/batch_listeners.hpp"
 #include "cli/fragment.hpp"
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "store/run.hpp"
 
 namespace rejoin::cli {
 namespace fs = std::filesystem;
 namespace {
 
-/// The surface that was matched, or the scan anew where that is gone and cannot be kept (a run that may only be read).
-match::Fragment load_one(const store::Fragment& fragment, const fs::path& folder, Console& console,
-                         const Context& context) {
+/// What became of loading a fragment.
+struct Loaded {
+  std::optional<match::Fragment> fragment;
+  std::string error;  ///< of a scan that cannot be used
+  bool is_not_kept =
+      false;  ///< the surface that was matched is gone and cannot be made again in its place (a run that may only be read)
+};
+
+Loaded load_kept(const store::Fragment& fragment, const fs::path& folder, const Context& context) {
+  Loaded loaded;
   try {
-    return batch::load_prepared(fragment, folder / batch::kCacheName, context);
+    loaded.fragment = batch::load_prepared(fragment, folder / batch::kCacheName, context);
   } catch (const StoreError&) {
-    return load_fragment(fragment.path, console, context);
+    loaded.is_not_kept = true;
+  } catch (const Error& error) {
+    loaded.error = error.what();
   }
+  return loaded;
+}
+
+/// The surfaces that were matched, side by side.
+std::vector<Loaded> load_all_kept(const std::vector<store::Fragment>& fragments, const fs::path& folder,
+                                  const Context& context) {
+  std::vector<Loaded> loaded(fragments.size());
+  std::size_t done = 0;
+  std::mutex guard;
+  run_side_by_side(fragments.size(), [&](std::size_t k) {
+    if (context.cancelled()) return;
+    const Context alone({}, context);
+    loaded[k] = load_kept(fragments[k], folder, alone);
+    const std::lock_guard lock(guard);
+    context.report("load", static_cast<double>(++done) / static_cast<double>(fragments.size()));
+  });
+  return loaded;
+}
+
+/// Those that can be assembled; copies and bad ones go to `input.bad`.
+std::vector<store::Fragment> usable(const std::vector<store::Fragment>& fragments, AssembleInput& input,
+                                    Console& console) {
+  const std::map<std::string, std::string> copies = store::copies(fragments);
+  std::vector<store::Fragment> list;
+  for (const store::Fragment& fragment : fragments) {
+    const auto copy = copies.find(fragment.name);
+    if (copy != copies.end()) {
+      input.bad[fragment.name] = store::reason_of_copy(copy->second);
+    } else if (fragment.state == store::FragmentState::Bad) {
+      console.warning(fragment.error);
+      input.bad[fragment.name] = fragment.error;
+    } else {
+      list.push_back(fragment);
+    }
+  }
+  return list;
 }
 
 /// Numbers of the fragments that could be loaded, by their ids.
 std::map<std::int64_t, std::size_t> load_all(const store::Run& run, const fs::path& folder,
                                              AssembleInput& input, Console& console, const Context& context) {
   std::map<std::int64_t, std::size_t> number;
-  const std::vector<store::Fragment> fragments = run.fragments();
-  const std::map<std::string, std::string> copies = store::copies(fragments);
-  for (const store::Fragment& fragment : fragments) {
-    if (context.cancelled()) break;
-    const auto copy = copies.find(fragment.name);
-    if (copy != copies.end()) {
-      input.bad[fragment.name] = store::reason_of_copy(copy->second);
-      continue;
-    }
-    if (fragment.state == store::FragmentState::Bad) {
-      console.warning(fragment.error);
-      input.bad[fragment.name] = fragment.error;
-      continue;
-    }
+  const std::vector<store::Fragment> fragments = usable(run.fragments(), input, console);
+  std::vector<Loaded> loaded = load_all_kept(fragments, folder, context);
+  console.end_progress();
+  for (std::size_t k = 0; k < fragments.size() && !context.cancelled(); ++k) {
+    const store::Fragment& fragment = fragments[k];
     try {
-      input.fragments.push_back(load_one(fragment, folder, console, context));
-      input.names.push_back(fragment.name);
-      input.paths.push_back(fragment.path);
-      input.hashes.push_back(fragment.hash);
-      number[fragment.id] = input.names.size() - 1;
+      if (loaded[k].is_not_kept) loaded[k].fragment = load_fragment(fragment.path, console, context);
     } catch (const Error& error) {
-      console.warning(error.what());
-      input.bad[fragment.name] = error.what();
+      loaded[k].error = error.what();
     }
+    if (!loaded[k].fragment) {
+      console.warning(loaded[k].error);
+      input.bad[fragment.name] = loaded[k].error;
+      continue;
+    }
+    number[fragment.id] = input.names.size();
+    input.fragments.push_back(std::move(*loaded[k].fragment));
+    input.names.push_back(fragment.name);
+    input.paths.push_back(fragment.path);
+    input.hashes.push_back(fragment.hash);
   }
   return number;
 }
