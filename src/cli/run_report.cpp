@@ -180,6 +180,11 @@ mesh::Mesh surface_of(const store::Fragment& fragment, bool is_as_matched, const
   std::optional<mesh::Mesh> kept;
   if (!is_as_matched) kept = batch::kept_surface(fragment, cache);
   mesh::Mesh scan = kept ? std::move(*kept) : mesh::load(fragment.path).mesh;
+  if (!kept && !is_as_matched) {  // poses are the old one's
+    throw InputError(fragment.path,
+                     "is no longer what rejoin batch matched, and the run keeps no surface of that",
+                     "run rejoin batch again");
+  }
   if (scan.is_cloud()) scan = mesh::surface_of_cloud(scan);
   return mesh::simplify(scan, faces);
 }

@@ -302,6 +302,10 @@ TEST_F(Batch, ScanReplacedSinceIsToldAndWhatWasMatchedIsAssembled) {
 #ifdef REJOIN_VIEWER
   const Finished report = run({"report", run_, "--pictures", "0"});
   EXPECT_NE(report.err.find(told), std::string::npos) << report.err;
+  fs::remove_all(run_ + "/fragments");
+  const Finished without = run({"report", run_, "--pictures", "0"});
+  EXPECT_NE(without.err.find("b7.ply: is no longer what rejoin batch matched"), std::string::npos)
+      << without.err;
 #endif
 }
 
