@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "batch/inputs.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/parallel.hpp"
@@ -106,6 +107,10 @@ match::Fragment load_prepared(const store::Fragment& fragment, const fs::path& c
   std::vector<std::string> warnings;
   if (!surface) {
     mesh::Loaded loaded = mesh::load(fragment.path);
+    if (content_hash(fragment.path) != fragment.hash) {
+      throw InputError(fragment.path, "has another content than rejoin batch found, of which nothing is kept",
+                       "run rejoin batch again");
+    }
     warnings = std::move(loaded.warnings);
     require_body(loaded.mesh, fragment.path);
     keep(kept, match::surface_of(fragment.path, std::move(loaded.mesh)));

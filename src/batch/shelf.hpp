@@ -22,7 +22,7 @@ inline constexpr const char* kCacheName = "fragments";
 /// kept (Draco, named after the content's hash).  What is matched is always the kept surface, so that the first run and later ones give
 /// the same bytes.
 /// \param cache  folder, made if it is not there
-/// \throws InputError, IoError the scan cannot be used   \throws StoreError the cache cannot be written
+/// \throws InputError, IoError the scan cannot be used, or is no longer of the fragment's hash   \throws StoreError the cache cannot be written
 match::Fragment load_prepared(const store::Fragment& fragment, const std::filesystem::path& cache,
                               const Context& context);
 

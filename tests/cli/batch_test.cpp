@@ -307,6 +307,13 @@ TEST_F(Batch, ScanReplacedSinceIsToldAndWhatWasMatchedIsAssembled) {
   EXPECT_NE(without.err.find("b7.ply: is no longer what rejoin batch matched"), std::string::npos)
       << without.err;
 #endif
+  fs::remove_all(run_ + "/fragments");
+  EXPECT_EQ(run({"assemble", run_}).exit_code, 0);
+  const json lost = json::parse(read_file(run_ + "/assembly.json"));
+  EXPECT_NE(lost["fragments"]["b7.ply"]["reason"].get<std::string>().find("another content"),
+            std::string::npos)
+      << lost["fragments"];
+  EXPECT_TRUE(lost["fragments"]["a7.ply"].contains("scan")) << "made ready again";
 }
 
 TEST_F(Batch, ScanInMetresAmongMillimetresIsTold) {
