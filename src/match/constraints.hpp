@@ -51,7 +51,7 @@ SearchSpace free_space(double reach);
 /// Facing fracture directions: each is laid along its Z axis; theta and phi of both stay within +-tolerance.
 /// \param direction_a, direction_b  outwards, file axes, any length but 0
 SearchSpace direction_space(const glm::dvec3& direction_a, const glm::dvec3& direction_b,
-                            double tolerance_rad, double diameter);
+                            double tolerance_rad, double reach);
 
 /// Collinear material axes: each is laid along Z, fragment 1 turns about Z first, theta2 = -theta1 and
 /// phi2 = phi1 + pi, each with a jitter of +-jitter.
@@ -60,7 +60,7 @@ SearchSpace direction_space(const glm::dvec3& direction_a, const glm::dvec3& dir
 /// than
 ///         random, and both senses of the axis are available.
 SearchSpace material_space(const glm::dvec3& axis_a, const glm::dvec3& axis_b, double jitter_rad,
-                           double diameter, bool opposite);
+                           double reach, bool opposite);
 
 /// Fills space.shift_of_rho: for evenly spread rho1 (the other variables 0) the shift of fragment 1 at which
 /// the silhouettes cover each other best, so that x1 and y1 search around the largest overlap. \source

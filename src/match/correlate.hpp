@@ -35,7 +35,7 @@ struct CorrelateOptions {
 ///   explained = 2 cov / (var1 + var2 + 2 n noise^2),
 /// and with o the gradients of the masks, summed over all pixels, and b the length of the shorter border,
 ///   along = sum o1.o2 / (e b), e the sum of |o|^2 across a straight border,
-///   score = atanh(max(explained, 0)) sqrt(n) + outline_weight along sqrt(b).
+///   score = atanh(explained, held within 0 .. 0.98) sqrt(n) + outline_weight along sqrt(b).
 /// Taking the means off removes the tilt of one facet against the other to first order, for every shift, in
 /// closed form. Flat breaks have no slopes to agree on, but outlines. Each sum is a correlation of masked maps,
 /// done by FFT.  \source papaioannou 2002, eq. (9), squared instead of absolute slope differences; masked

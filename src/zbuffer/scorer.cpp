@@ -23,7 +23,7 @@ std::unique_ptr<Scorer> make_fastest(const mesh::Mesh& a, const mesh::Mesh& b, c
     try {
       return gl::make(Backend::Gpu, a, b, options);
     } catch (const BackendError&) {
-      // A GPU that is full or lost is no reason to stop: the CPU gives the same scores.
+      // A GPU that is full or lost is no reason to stop: the CPU gives the same scores, within rounding.
     }
   }
   return detail::make_raster(a, b, options);

@@ -23,7 +23,7 @@ struct FftPlan {
   std::vector<float> twiddles;
 };
 
-/// \param length  of fft_length()
+/// \param length  a side of fft_size()
 FftPlan plan_fft(std::size_t length);
 
 /// Sides of a field that is to be transformed.

@@ -39,7 +39,7 @@ struct Groups {
 Groups grow(const Ground& ground, float cone_deg);
 
 /// Gives the samples of the groups that do not stay to the adjacent ones whose mean normal fits best, until none is left that
-/// can go.
+/// can go or after eight rounds.
 void absorb(const Ground& ground, Groups& groups, const std::vector<bool>& stays);
 
 /// Samples of each group that has at least `smallest`.
