@@ -72,6 +72,19 @@ std::vector<std::string> find_scans(const fs::path& folder) {
   return names;
 }
 
+std::string told_of_models(const fs::path& folder) {
+  std::string names;
+  for (const std::string_view model : kModels) {
+    std::error_code ignored;
+    if (fs::is_regular_file(folder / model, ignored))
+      names += fmt::format("{}{}", names.empty() ? "" : ", ", model);
+  }
+  if (names.empty()) return "";
+  return fmt::format(
+      "{}: left out, as rejoin writes models of several fragments under such names (a scan needs another)",
+      names);
+}
+
 std::string content_hash(const fs::path& path) {
   const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), &XXH3_freeState);
   XXH3_128bits_reset(state.get());

@@ -15,6 +15,9 @@ namespace rejoin::batch {
 /// \throws InputError  it holds fewer than two such files
 std::vector<std::string> find_scans(const std::filesystem::path& folder);
 
+/// What to tell of the models in the folder that find_scans() leaves out; empty if there are none.
+std::string told_of_models(const std::filesystem::path& folder);
+
 /// 128 bits of the content (XXH3) of mesh::files_of() as 32 hexadecimal digits; equal contents have equal hashes, under any name.
 /// \throws IoError a file cannot be read
 std::string content_hash(const std::filesystem::path& path);

@@ -35,6 +35,8 @@ TEST_F(Inputs, ScansAreFoundByExtensionInAnyCaseAndSorted) {
   fs::create_directory(folder_ / "folder.ply");
   ASSERT_EQ(mkfifo((folder_ / "pipe.ply").c_str(), 0600), 0);
   EXPECT_EQ(find_scans(folder_), (std::vector<std::string>{"a.drc", "b.PLY", "c.glb"}));
+  EXPECT_EQ(told_of_models(folder_).find("assembled.ply, joined.glb: left out"), 0U)
+      << told_of_models(folder_);
 }
 
 TEST_F(Inputs, TooFewScansAreAnError) {
