@@ -4,34 +4,29 @@
 #include <xxhash.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <map>
 #include <memory>
-#include <string_view>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/words.hpp"
 #include "mesh/files.hpp"
 #include "mesh/load.hpp"
+#include "mesh/save.hpp"
 
 namespace rejoin::batch {
 namespace fs = std::filesystem;
 namespace {
-
-/// Models that rejoin writes: of several fragments, whatever folder the user has them put into.
-constexpr std::array<std::string_view, 4> kModels{"assembled.glb", "assembled.ply", "joined.glb",
-                                                  "joined.ply"};
 
 bool is_scan(const fs::directory_entry& entry) {
   std::error_code ignored;
   if (entry.is_directory(ignored) || entry.is_other(ignored)) return false;  // a pipe would be waited for
   if (entry.path().filename().string().starts_with('.'))
     return false;  // hidden, as macOS leaves one beside every file
-  if (std::ranges::find(kModels, entry.path().filename()) != kModels.end()) return false;
+  if (std::ranges::find(mesh::kSceneNames, entry.path().filename()) != mesh::kSceneNames.end()) return false;
   return mesh::has_scan_name(entry.path());
 }
 
@@ -74,7 +69,7 @@ std::vector<std::string> find_scans(const fs::path& folder) {
 
 std::string told_of_models(const fs::path& folder) {
   std::string names;
-  for (const std::string_view model : kModels) {
+  for (const char* model : mesh::kSceneNames) {
     std::error_code ignored;
     if (fs::is_regular_file(folder / model, ignored))
       names += fmt::format("{}{}", names.empty() ? "" : ", ", model);

@@ -162,7 +162,7 @@ class MatchCommand final : public Command {
     if (!result.cancelled) {
       files = report::write_match_outputs(*out_, a, b, result);
     } else if (!result.candidates.empty()) {
-      files.emplace_back(std::filesystem::path(*out_) / "joined.ply");
+      files.emplace_back(std::filesystem::path(*out_) / mesh::kJoinedPly);
       mesh::save_scene(files[0],
                        {{path_a_, &a.surface, Rigid{}}, {path_b_, &b.surface, result.candidates[0].pose}});
     }

@@ -1,6 +1,7 @@
 /// Writing of meshes: PLY (binary little-endian), OBJ, GLB, Draco.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -9,6 +10,13 @@
 #include "mesh/mesh.hpp"
 
 namespace rejoin::mesh {
+
+/// Names of the scenes that `rejoin match` and `rejoin assemble` write.  They may lie among scans, and are none.
+inline constexpr const char* kJoinedGlb = "joined.glb";
+inline constexpr const char* kJoinedPly = "joined.ply";
+inline constexpr const char* kAssembledGlb = "assembled.glb";
+inline constexpr const char* kAssembledPly = "assembled.ply";
+inline constexpr std::array kSceneNames{kAssembledGlb, kAssembledPly, kJoinedGlb, kJoinedPly};
 
 /// A mesh at a pose in a scene file.
 struct Placed {

@@ -77,7 +77,7 @@ std::vector<std::filesystem::path> write_joined(const std::filesystem::path& fol
   // A GLB's numbers are floats: far from the origin the two would part, so A is brought there.
   const bool far = glm::length(a.surface.origin) > kFar * a.diameter;
   const Rigid to_origin{glm::dmat3(1.0), far ? -a.surface.origin : glm::dvec3(0.0)};
-  std::vector<std::filesystem::path> files{folder / "joined.glb", folder / "joined.ply"};
+  std::vector<std::filesystem::path> files{folder / mesh::kJoinedGlb, folder / mesh::kJoinedPly};
   mesh::save_scene(files[0],
                    {{file_name(a.path), &first, to_origin}, {file_name(b.path), &second, to_origin * pose}});
   mesh::save_scene(files[1], {{file_name(a.path), &first, Rigid{}}, {file_name(b.path), &second, pose}});
