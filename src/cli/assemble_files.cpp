@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cstdint>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <system_error>
 
@@ -21,10 +21,7 @@ namespace {
 constexpr std::size_t kLongestName = 200;
 
 constexpr const char* kProject = "assembled.mlp";
-constexpr const char* kGlb = "assembled.glb";
-constexpr const char* kPly = "assembled.ply";
 constexpr const char* kPicture = "assembled.png";
-constexpr std::array kModels{kProject, kGlb, kPly, kPicture};
 constexpr const char* kMatrices = "cloudcompare";
 
 using nlohmann::ordered_json;
@@ -208,37 +205,52 @@ bool is_matrix(const std::filesystem::path& file) {
   return numbers == 16 && text.eof();
 }
 
-/// Models and matrices of an earlier assembly, which would be taken for this one's where it places less.
-void remove_earlier(const std::filesystem::path& folder) {
+/// Matrices of an earlier assembly, which would be taken for this one's.
+/// \param written  of this one
+void remove_other_matrices(const std::filesystem::path& folder, const std::set<std::string>& written) {
   std::error_code problem;
-  for (const char* name : kModels) std::filesystem::remove(folder / name, problem);
-  std::vector<std::filesystem::path> matrices;
-  for (std::filesystem::directory_iterator entry(folder / kMatrices, problem), end; !problem && entry != end;
+  std::vector<std::filesystem::path> others;
+  for (std::filesystem::directory_iterator entry(folder, problem), end; !problem && entry != end;
        entry.increment(problem)) {
-    if (is_matrix(entry->path())) matrices.push_back(entry->path());
+    if (written.count(entry->path().filename().string()) == 0 && is_matrix(entry->path()))
+      others.push_back(entry->path());
   }
-  for (const auto& matrix : matrices) std::filesystem::remove(matrix, problem);
+  for (const auto& other : others) std::filesystem::remove(other, problem);
+}
+
+/// The same of all that write_assembly() writes.
+void remove_earlier(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  for (const char* name : {kProject, mesh::kAssembledGlb, mesh::kAssembledPly, kPicture})
+    std::filesystem::remove(folder / name, ignored);
+  remove_other_matrices(folder / kMatrices, {});
 }
 
 std::vector<std::filesystem::path> write_assembly(const std::filesystem::path& folder,
                                                   const AssembleInput& input,
                                                   const assembly::Result& result) {
   std::vector<std::filesystem::path> files;
-  remove_earlier(folder);
-  if (result.groups == 0) return files;
+  if (result.groups == 0) {
+    remove_earlier(folder);
+    return files;
+  }
   const std::filesystem::path matrices = folder / kMatrices;
   require_writable_folder(matrices);
   std::vector<mesh::Placed> parts;
+  std::set<std::string> written;
   for (std::size_t k = 0; k < input.names.size(); ++k) {
     const assembly::Placement& placement = result.placements[k];
     if (placement.group < 0) continue;
     parts.push_back({input.names[k], &input.fragments[k].surface, placement.pose});
-    write_file(matrices / matrix_name(input.names[k], k), matrix_text(placement.pose));
+    const std::string name = matrix_name(input.names[k], k);
+    write_file(matrices / name, matrix_text(placement.pose));
+    written.insert(name);
   }
+  remove_other_matrices(matrices, written);
   files.push_back(matrices);
   files.push_back(folder / kProject);
   write_file(files.back(), meshlab_project(input, result));
-  for (const char* name : {kGlb, kPly}) {
+  for (const char* name : {mesh::kAssembledGlb, mesh::kAssembledPly}) {
     files.push_back(folder / name);
     mesh::save_scene(files.back(), parts);
   }
