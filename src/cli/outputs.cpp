@@ -11,6 +11,7 @@
 #include "cli/command.hpp"
 #include "core/files.hpp"
 #include "mesh/load.hpp"
+#include "outline/read.hpp"
 
 namespace rejoin::cli {
 namespace fs = std::filesystem;
@@ -21,12 +22,18 @@ bool is_same(const fs::path& a, const fs::path& b) {
   return fs::equivalent(a, b, absent);
 }
 
+/// Whether a command reads files of such a name from a folder that it is given.
+bool is_read_from_folders(const fs::path& file, const CLI::App& command) {
+  const bool flat = command.get_parent() != nullptr && command.get_parent()->get_name() == "outline";
+  return flat ? outline::has_piece_name(file.string()) : mesh::has_scan_name(file);
+}
+
 /// Whether writing `output` takes something of `input`, a file or a folder.
-bool would_destroy(const fs::path& output, const fs::path& input) {
+bool would_destroy(const fs::path& output, const fs::path& input, const CLI::App& command) {
   std::error_code ignored;
   if (!fs::is_regular_file(output, ignored)) return false;
   if (is_same(output, input)) return true;
-  return fs::is_directory(input, ignored) && mesh::has_scan_name(output) &&
+  return fs::is_directory(input, ignored) && is_read_from_folders(output, command) &&
          is_same(fs::absolute(output).parent_path(), input);
 }
 
@@ -36,10 +43,18 @@ bool has_name_of_a_file(const fs::path& path) {
   return std::ranges::any_of(kEndings, [&](const char* known) { return ending == known; });
 }
 
-void require_file(const CLI::Option& option, const std::string& value,
-                  const std::vector<std::string>& inputs) {
-  for (const std::string& input : inputs) {
-    if (!would_destroy(value, input)) continue;
+std::vector<std::string> values_of(const CLI::App& command, const std::string& group) {
+  std::vector<std::string> values;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_group() != group) continue;
+    values.insert(values.end(), option->results().begin(), option->results().end());
+  }
+  return values;
+}
+
+void require_file(const CLI::Option& option, const std::string& value, const CLI::App& command) {
+  for (const std::string& input : values_of(command, "Input")) {
+    if (!would_destroy(value, input, command)) continue;
     throw UsageError(value, "is read too and would be lost",
                      fmt::format("give {} another file", option.get_name()));
   }
@@ -52,26 +67,16 @@ void require_folder(const CLI::Option& option, const std::string& value) {
                    "name a folder");
 }
 
-std::vector<std::string> values_of(const CLI::App& command, const std::string& group) {
-  std::vector<std::string> values;
-  for (const CLI::Option* option : command.get_options()) {
-    if (option->get_group() != group) continue;
-    values.insert(values.end(), option->results().begin(), option->results().end());
-  }
-  return values;
-}
-
 }  // namespace
 
 void require_outputs_apart(const CLI::App& command) {
-  const std::vector<std::string> inputs = values_of(command, "Input");
   for (const CLI::Option* option : command.get_options()) {
     const std::string type = option->get_type_name();
     if (option->get_group() != "Output" || (type != "FILE" && type != "DIR" && type != "RUN")) continue;
     for (const std::string& value : option->results()) {
       if (value.empty()) throw UsageError(option->get_name(), "has no name", "name what is to be written");
       if (type == "FILE") {
-        require_file(*option, value, inputs);
+        require_file(*option, value, command);
       } else {
         require_folder(*option, value);
       }

@@ -6,7 +6,7 @@
 namespace rejoin::cli {
 
 /// Looks at the values of a parsed command's, and its commands', options in the groups "Input" and "Output".
-/// \throws UsageError an output is empty, is a file that is read too or a scan in a folder that is read, or has the name of a file where a
+/// \throws UsageError an output is empty, is a file that is read too or a scan or piece in a folder that is read, or has the name of a file where a
 ///         folder is taken
 void require_outputs_apart(const CLI::App& command);
 

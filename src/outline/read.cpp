@@ -117,6 +117,11 @@ void take_out_repeats(PieceSet& set) {
 
 }  // namespace
 
+bool has_piece_name(const std::string& path) {
+  // Other files end in .json as well.
+  return kind_of(path) != Kind::Unknown && fs::path(path).extension() != ".json";
+}
+
 PieceSet read_pieces(const std::string& path, const ExtractOptions& options) {
   const Kind kind = kind_of(path);
   PieceSet set;
@@ -183,11 +188,9 @@ PieceSet read_folder(const std::string& folder, const ExtractOptions& options) {
   std::vector<std::string> results;
   for (auto entry = fs::directory_iterator(folder, problem); !problem && entry != fs::directory_iterator();
        entry.increment(problem)) {
-    const Kind kind = kind_of(entry->path());
     if (is_other_picture(entry->path())) others.push_back(entry->path());
-    if (kind == Kind::Unknown || is_beside_the_pieces(entry->path().filename().string(), results)) continue;
-    const bool other_json = kind == Kind::GeoJson && entry->path().extension() == ".json";
-    if (!other_json) files.push_back(entry->path());
+    if (!has_piece_name(entry->path().string())) continue;
+    if (!is_beside_the_pieces(entry->path().filename().string(), results)) files.push_back(entry->path());
   }
   if (problem)
     throw IoError(folder, "cannot be read (" + problem.message() + ")",

@@ -23,6 +23,9 @@ struct PieceSet {
   std::vector<LeftOut> repeated;   ///< pieces of a folder that are the same, point for point, as another
 };
 
+/// Whether a file of a folder may be one of its pieces by its name, as read_folder() has it.
+bool has_piece_name(const std::string& path);
+
 /// Pieces of one file, by its name's ending:
 /// - png, jpg, jpeg, tif, tiff: pictures, see extract()
 /// - csv, txt: one outline, a point "x,y" a line (comma, semicolon, tab or blanks; a first line of words is skipped);

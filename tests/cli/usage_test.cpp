@@ -43,7 +43,8 @@ TEST(CommandLine, OutputsThatWouldTakeWhatIsReadAreRefused) {
   const std::vector<std::vector<std::string>> commands{{"match", scan, other, "--json", other},
                                                        {"facets", scan, "--ply", folder / "./scan.ply"},
                                                        {"assemble", folder / ".", "--json", other},
-                                                       {"outline", "match", piece, other, "--json", piece}};
+                                                       {"outline", "match", piece, other, "--json", piece},
+                                                       {"outline", "assemble", folder / "", "--json", piece}};
   for (const auto& command : commands) {
     const Finished finished = run(command);
     EXPECT_EQ(finished.exit_code, 2) << command[0];
