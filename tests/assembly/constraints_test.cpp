@@ -1,0 +1,134 @@
+/// What the user asks of an assembly, on broken balls.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "broken_balls.hpp"
+
+namespace rejoin::assembly::testing {
+namespace {
+
+TEST(Constraints, PairsThatMustNotJoinStayApart) {
+  const Corner corner = corner_of(ball());
+  Options options;
+  options.constraints.must_not_join = {{corner.a, corner.b}};
+  const Result result = run(ball(), ball().all_true(0.99), options);
+  const bool together = result.placements[corner.a].group >= 0 &&
+                        result.placements[corner.a].group == result.placements[corner.b].group;
+  EXPECT_FALSE(together);
+}
+
+TEST(Constraints, APieceLeftOutByThemSaysSo) {
+  const Corner corner = corner_of(ball());
+  Options options;
+  options.constraints.must_not_join = {{corner.b, corner.a}};
+  const Result result = run(ball(), {ball().true_link(corner.a, corner.b, 0.99)}, options);
+  EXPECT_NE(result.placements[corner.a].reason.find("must not be"), std::string::npos)
+      << result.placements[corner.a].reason;
+}
+
+TEST(Constraints, TwoUnsureJoinsThatMakeAForbiddenPairTouchAreBothLeftOut) {
+  const Corner corner = corner_of(ball());
+  const std::vector<Link> two{ball().true_link(corner.a, corner.b, 0.1),
+                              ball().true_link(corner.b, corner.c, 0.05)};
+  Options options;
+  ASSERT_EQ(run(ball(), two, options).groups, 1);
+  options.constraints.must_not_join = {{corner.a, corner.c}};
+  EXPECT_EQ(run(ball(), two, options).groups, 0);
+}
+
+TEST(Constraints, PairsThatMustJoinDoSoHoweverLowTheScore) {
+  const Corner corner = corner_of(ball());
+  Options options;
+  options.constraints.must_join = {{corner.a, corner.b}};
+  const std::vector<Link> weak{ball().inside_link(corner.a, corner.b, 0.02),
+                               ball().true_link(corner.a, corner.b, 0.01)};
+  const Result result = run(ball(), weak, options);
+  EXPECT_EQ(result.groups, 1);  // the better-scored pose overlaps, so the other is taken
+  EXPECT_LT(ball().worst_turn(result), 0.5);
+  EXPECT_TRUE(result.warnings.empty());
+}
+
+TEST(Constraints, PairsThatMustJoinAndDoAnyhowTakeNoOtherPose) {
+  const auto least = std::min_element(ball().contacts.begin(), ball().contacts.end(),
+                                      [](const auto& x, const auto& y) { return x.area < y.area; });
+  std::vector<Link> links = ball().all_true(0.999);
+  for (Link& link : links) {
+    if (std::minmax(link.a, link.b) == std::minmax(least->a, least->b))
+      link = ball().false_link(link.a, link.b, 0.01, 10.0, 1.5);
+  }
+  Options options;
+  options.constraints.must_join = {{least->b, least->a}};
+  const Result result = run(ball(), links, options);
+  EXPECT_LT(ball().worst_turn(result), 0.5);
+  EXPECT_TRUE(result.warnings.empty());
+  EXPECT_TRUE(std::any_of(result.joins.begin(), result.joins.end(), [&](const Join& join) {
+    return std::minmax(join.a, join.b) == std::minmax(least->a, least->b);
+  }));
+}
+
+TEST(Constraints, AWishThatCannotBeKeptIsSaid) {
+  const Corner corner = corner_of(ball());
+  Options options;
+  options.constraints.must_join = {{corner.a, corner.b}};
+  EXPECT_EQ(run(ball(), {}, options).warnings.size(), 1U);
+}
+
+TEST(Constraints, PinnedPiecesStayWhereTheyAre) {
+  const Corner corner = corner_of(ball());
+  Options options;
+  options.constraints.pinned = {{corner.a, ball().to_world[corner.a]}, {corner.c, ball().to_world[corner.c]}};
+  const Result result = run(ball(), {ball().true_link(corner.a, corner.b, 0.99)}, options);
+  EXPECT_EQ(result.placements[corner.a].pose.translation, ball().to_world[corner.a].translation);
+  EXPECT_EQ(result.placements[corner.c].pose.rotation, ball().to_world[corner.c].rotation);
+  EXPECT_LT(angle_between(result.placements[corner.b].pose, ball().to_world[corner.b]) / kDegree, 0.5);
+  EXPECT_EQ(result.groups, 1);
+}
+
+TEST(Constraints, OtherGroupsLieBesideThePinnedOne) {
+  const Box& box = two_balls();
+  const auto low_and_high = [&](const Result& result, std::size_t begin, std::size_t end) {
+    double low = 1e300;
+    double high = -1e300;
+    for (std::size_t k = begin; k < end; ++k) {
+      for (const glm::vec3& v : box.fragments[k].surface.vertices) {
+        const double x = result.placements[k].pose(box.fragments[k].surface.origin + glm::dvec3(v)).x;
+        low = std::min(low, x);
+        high = std::max(high, x);
+      }
+    }
+    return std::pair(low, high);
+  };
+  Options options;
+  options.constraints.pinned = {{0, box.to_world[0]}};  // in the first ball, around the frame's origin
+  const Result result = run(box, box.all_true(0.999), options);
+  ASSERT_EQ(result.groups, 2);
+  EXPECT_GT(low_and_high(result, 5, 8).first, low_and_high(result, 0, 5).second);
+}
+
+TEST(Constraints, PosesGivenAgainstOtherWishesAreKeptAndTold) {
+  const Corner corner = corner_of(ball());
+  const Rigid at_a = ball().to_world[corner.a];
+  const Rigid far_off{glm::dmat3(1.0), {100.0, 0.0, 0.0}};
+  const auto warnings = [&](const Rigid& at_b, bool must) {
+    Options options;
+    options.constraints.pinned = {{corner.a, at_a}, {corner.b, at_b}};
+    (must ? options.constraints.must_join : options.constraints.must_not_join) = {{corner.b, corner.a}};
+    const Result result = run(ball(), {}, options);
+    EXPECT_EQ(result.placements[corner.b].pose.translation, at_b.translation);
+    return result.warnings;
+  };
+  const std::string names = fmt::format("{{{}}} and {{{}}}", corner.b, corner.a);
+  const std::string other_way = fmt::format("{{{}}} and {{{}}}", corner.a, corner.b);
+  EXPECT_TRUE(warnings(ball().to_world[corner.b], true).empty());
+  EXPECT_EQ(warnings(far_off, true),
+            std::vector<std::string>{names + " must join, but do not touch at the poses given"});
+  EXPECT_TRUE(warnings(far_off, false).empty());
+  EXPECT_EQ(warnings(ball().to_world[corner.b], false),
+            std::vector<std::string>{other_way + " must not join, but touch at the poses given"});
+  const Rigid inside = at_a * ball().inside_link(corner.a, corner.b, 1.0).pose;
+  EXPECT_EQ(warnings(inside, false),
+            std::vector<std::string>{"the poses given put " + other_way + " into each other"});
+}
+
+}  // namespace
+}  // namespace rejoin::assembly::testing
