@@ -36,7 +36,8 @@ bool has_scan_name(const std::filesystem::path& path);
 ///
 /// \throws IoError     the file cannot be opened or ends before what its header promises
 /// \throws InputError  unknown extension, empty or not such a file, NaN or infinite coordinate (names its
-///                     vertex), index out of range (names its face), nothing left after clean-up, no area
+///                     vertex), index out of range (names its face), nothing left after clean-up, next to no area,
+///                     not between 1e-6 and 1e9 across
 Loaded load(const std::filesystem::path& path, Weld weld = Weld::Places);
 
 }  // namespace rejoin::mesh

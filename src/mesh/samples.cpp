@@ -32,6 +32,14 @@ double fraction(double x) {
   return x - std::floor(x);
 }
 
+/// Twice a triangle's area: in floats, whose rounding all samples so far follow, but where a float's square would vanish.
+double doubled_area(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+  constexpr float kLeast = 1e-15F;
+  const float length = glm::length(glm::cross(b - a, c - a));
+  if (length > kLeast) return static_cast<double>(length);
+  return glm::length(glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a)));
+}
+
 /// About `per_area` points a unit of area: every face gets its share (rounded by carrying the remainder on),
 /// placed by a Kronecker sequence with the plastic number (Roberts 2018), which fills a triangle evenly.
 std::vector<Dart> throw_darts(const Mesh& mesh, double per_area, const glm::vec3& low, float spacing) {
@@ -43,7 +51,7 @@ std::vector<Dart> throw_darts(const Mesh& mesh, double per_area, const glm::vec3
     const glm::vec3 a = mesh.vertices[face.x];
     const glm::vec3 b = mesh.vertices[face.y];
     const glm::vec3 c = mesh.vertices[face.z];
-    carried += 0.5 * static_cast<double>(glm::length(glm::cross(b - a, c - a))) * per_area;
+    carried += 0.5 * doubled_area(a, b, c) * per_area;
     while (carried >= 1.0) {
       double u = fraction(0.5 + 0.7548776662466927 * static_cast<double>(index));
       double v = fraction(0.5 + 0.5698402909980532 * static_cast<double>(index));

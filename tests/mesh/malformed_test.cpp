@@ -167,6 +167,12 @@ TEST_F(Malformed, SizesWhoseAreasNoFloatHolds) {
   EXPECT_EQ(load(folder_.write("e.obj", triangle("1") + "v 1e-400 2 0\nf 1 2 4\n")).mesh.faces.size(), 2U);
 }
 
+TEST_F(Malformed, NeedlesOfNextToNoArea) {
+  const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1e-30 0\nv 0 0 1e-30\n";
+  expect("a.obj", points + "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n", Kind::Input,
+         "is 1 across, but its faces have an area of only 1.71e-30");
+}
+
 TEST_F(Malformed, ColoursThatAreNoNumbersAreBlack) {
   const std::string off = "COFF\n3 1 0\n0 0 0 nan 0.5 7\n1 0 0 nan 0.5 7\n0 1 0 nan 0.5 7\n3 0 1 2\n";
   EXPECT_EQ(load(folder_.write("a.off", off)).mesh.colours.at(0), glm::u8vec3(0, 128, 255));

@@ -56,6 +56,18 @@ void require_usual_size(const Mesh& mesh, const std::string& name) {
                    "remove vertices far from the rest, or export it in a usual unit such as millimetres");
 }
 
+/// Samples of a surface lie in a grid whose cells follow from its area: a needle would need more of them than can be counted.
+void require_area(const Mesh& mesh, const std::string& name) {
+  constexpr double kLeast = 1e-10;  // of the size, squared; scans have a thousandth and more
+  const Box box = bounds(mesh);
+  const double size = glm::distance(glm::dvec3(box.low), glm::dvec3(box.high));
+  const double area = surface_area(mesh);
+  if (area >= kLeast * size * size) return;
+  throw InputError(
+      name, fmt::format("is {:.3g} across, but its faces have an area of only {:.3g} in all", size, area),
+      "remove parts far from the rest, or export the scan again");
+}
+
 /// The point that coordinates are stored relative to: zero for a scan near the origin, so that its floats
 /// stay as they are, else the box's centre on a coarse binary grid, so that subtracting it from float
 /// coordinates is exact.
@@ -207,6 +219,7 @@ Loaded clean(const Soup& soup, const std::string& name, Weld which) {
     clean_faces(loaded, name);
   }
   require_usual_size(loaded.mesh, name);
+  if (!cloud) require_area(loaded.mesh, name);
   return loaded;
 }
 
