@@ -35,6 +35,8 @@ void add_bytes(const fs::path& path, XXH3_state_t& state) {
     throw IoError(path.string(), fmt::format("cannot be read ({})", std::strerror(reason)),
                   "check the file and its permissions");
   };
+  std::error_code ignored;
+  if (fs::is_other(path, ignored)) throw IoError(path.string(), "is a pipe or device", "name a file");
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) refuse(errno);

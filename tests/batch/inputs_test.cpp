@@ -56,6 +56,8 @@ TEST_F(Inputs, HashTellsContentNotName) {
   EXPECT_NE(content_hash(folder_ / "a"), content_hash(folder_ / "c"));
   EXPECT_EQ(content_hash(folder_ / "empty"), "99aa06d3014798d86001c324468d497f") << "XXH3-128 of nothing";
   EXPECT_THROW(content_hash(folder_ / "nowhere"), IoError);
+  ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  EXPECT_THROW(content_hash(folder_ / "pipe"), IoError) << "a pipe would be waited for";
 }
 
 TEST_F(Inputs, HashOfAGltfIsOfItsBuffersToo) {

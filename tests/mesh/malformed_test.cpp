@@ -1,5 +1,6 @@
 // Bad files: one line that names the file, the place and the mend; never a crash, never half a mesh.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cmath>
@@ -240,6 +241,11 @@ TEST_F(Malformed, Gltf) {
   expect("l.gltf", chain + "{}]}", Kind::Input, "lies deeper than 1000 nodes");
   expect("m.gltf", asset + R"("extras":)" + std::string(1000000, '[') + std::string(1000000, ']') + "}",
          Kind::Input, "nested deeper than 200");
+  expect("n.gltf", asset + R"("extras":"\"\\\")" + std::string(1000, '[') + "\"}", Kind::Input,
+         "has no vertices");
+  ASSERT_EQ(mkfifo((folder_ / "pipe.bin").c_str(), 0600), 0);
+  expect("o.gltf", asset + R"("buffers":[{"byteLength":12,"uri":"pipe.bin"}]})", Kind::Io,
+         "pipe.bin : is a folder, pipe or device");
   const std::string mesh =
       asset + R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
               R"("buffers":[{"byteLength":4,"uri":"data:application/octet-stream;base64,AAAAAA=="}],)";

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -84,15 +86,31 @@ void check_extensions(const nlohmann::json& root, const std::string& name) {
   }
 }
 
+/// How many brackets of JSON lie in one another.  Counted here, as nlohmann's parser with a callback looks at all of a list
+/// again for each of its entries.
+int depth_of(std::string_view json) {
+  int depth = 0;
+  int deepest = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const char c = json[i];
+    if (c == '"') quoted = !quoted;
+    if (quoted) {
+      if (c == '\\') ++i;
+    } else if (c == '[' || c == '{') {
+      deepest = std::max(deepest, ++depth);
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+  }
+  return deepest;
+}
+
 /// The text with only what is needed.
 std::string reduced(std::string_view text, const std::string& name) {
-  const auto not_too_deep = [&name](int depth, nlohmann::json::parse_event_t /*event*/,
-                                    nlohmann::json& /*value*/) {
-    if (depth > kDeepest)
-      throw InputError(name, fmt::format("glTF JSON is nested deeper than {}", kDeepest), "export it again");
-    return true;
-  };
-  nlohmann::json root = nlohmann::json::parse(text, not_too_deep, false);
+  if (depth_of(text) > kDeepest)
+    throw InputError(name, fmt::format("glTF JSON is nested deeper than {}", kDeepest), "export it again");
+  nlohmann::json root = nlohmann::json::parse(text, nullptr, false);
   if (root.is_discarded() || !root.is_object())
     throw InputError(name, "is not a glTF file (its JSON cannot be read)", "check the file's format");
   check_extensions(root, name);
@@ -130,6 +148,21 @@ std::string join(std::string json, std::string_view binary) {
   return glb += padded;
 }
 
+// tinygltf opens files to see whether they are there, and would wait for pipes.
+bool is_there(const std::string& path, void* /*unused*/) {
+  std::error_code ignored;
+  return std::filesystem::exists(path, ignored);
+}
+
+bool read_buffer(std::vector<unsigned char>* bytes, std::string* error, const std::string& path,
+                 void* unused) {
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(path, ignored))
+    return tinygltf::ReadWholeFile(bytes, error, path, unused);
+  *error = "is a folder, pipe or device";
+  return false;
+}
+
 std::string first_line(const std::string& text) {
   return text.substr(0, text.find('\n'));
 }
@@ -144,6 +177,8 @@ tinygltf::Model read_gltf_model(const Source& source) {
   const std::string json = reduced(parts.json, source.name);
   const std::string folder = source.path.parent_path().string();
   tinygltf::TinyGLTF reader;
+  reader.SetFsCallbacks(
+      {&is_there, &tinygltf::ExpandFilePath, &read_buffer, &tinygltf::WriteWholeFile, nullptr});
   tinygltf::Model model;
   std::string error;
   std::string warning;
@@ -163,7 +198,7 @@ tinygltf::Model read_gltf_model(const Source& source) {
   }
   if (good) return model;
   if (error.find("File not found") != std::string::npos ||
-      error.find("File open error") != std::string::npos) {
+      error.find("File read error") != std::string::npos) {
     throw IoError(source.name, "a buffer file that it names cannot be read (" + first_line(error) + ")",
                   "keep the .bin files beside it");
   }
