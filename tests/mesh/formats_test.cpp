@@ -151,6 +151,15 @@ TEST(Save, SceneGlbPlacesEveryPart) {
   EXPECT_NE(test::read_bytes(folder / "scene.glb").find("\"name\":\"b\""), std::string::npos);
 }
 
+TEST(Scene, LargerThanAGlbHoldsIsRefused) {
+  const test::TemporaryFolder folder;
+  Mesh cloud;
+  cloud.vertices.resize(1000000);
+  const std::vector<Placed> parts(400, {"a", &cloud, Rigid{}});  // 4.8 GB
+  EXPECT_THROW(save_scene(folder / "a.glb", parts), IoError);
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.glb"));
+}
+
 TEST(Save, LeavesNothingBehindWhenItCannotWrite) {
   const TemporaryFolder folder;
   const Mesh mesh = test::box({1, 1, 1}, 1);

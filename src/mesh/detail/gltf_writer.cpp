@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstring>
+#include <limits>
 #include <sstream>
 
 #include "core/error.hpp"
@@ -141,9 +142,25 @@ class GlbBuilder {
   bool scene_;
 };
 
+/// Upper bound of what a GLB of the parts takes.
+std::size_t most_bytes_of(const std::vector<Placed>& parts) {
+  constexpr std::size_t kJson =
+      4096;  // of all that describes a part, but for its name: a fourth of that in truth
+  std::size_t bytes = kJson;
+  for (const Placed& part : parts) {
+    const Mesh& mesh = *part.mesh;
+    bytes += kJson + 12 * part.name.size();  // the name twice, and six characters for one that JSON escapes
+    bytes += sizeof(glm::vec3) * (mesh.vertices.size() + mesh.normals.size());
+    bytes += sizeof(glm::u16vec4) * mesh.colours.size() + sizeof(glm::uvec3) * mesh.faces.size();
+  }
+  return bytes;
+}
+
 }  // namespace
 
 std::string write_glb(const std::vector<Placed>& parts) {
+  // tinygltf would write the lengths modulo 2^32.
+  if (most_bytes_of(parts) > std::numeric_limits<std::uint32_t>::max()) return {};
   GlbBuilder builder(parts.size() > 1);
   for (const Placed& part : parts) builder.add(part);
   return builder.finish();

@@ -16,6 +16,8 @@ bool is_far(const Soup& soup);
 // The soup holds triangles only.
 std::string write_ply(const Soup& soup);
 std::string write_obj(const Soup& soup);
+
+/// Empty if they take more than the 4 GiB that a GLB file holds.
 std::string write_glb(const std::vector<Placed>& parts);
 
 }  // namespace rejoin::mesh::detail
