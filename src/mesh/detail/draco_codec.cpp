@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "mesh/detail/colour.hpp"
 
 namespace rejoin::mesh::detail {
 namespace {
@@ -51,7 +52,7 @@ std::vector<glm::u8vec3> colours_of(const draco::PointCloud& cloud, const draco:
   const bool bytes = attribute.data_type() == draco::DT_UINT8 && !attribute.normalized();
   std::vector<glm::u8vec3> colours;
   for (const glm::dvec3& value : triples<double>(cloud, attribute, name)) {
-    colours.emplace_back(glm::round(glm::clamp(value * (bytes ? 1.0 : 255.0), 0.0, 255.0)));
+    colours.push_back(to_bytes(value * (bytes ? 1.0 : 255.0)));
   }
   return colours;
 }
