@@ -3,12 +3,24 @@
 #include <fmt/core.h>
 
 #include "cli/arguments.hpp"
+#include "cli/interrupt.hpp"
 #include "cli/outline_calibration.hpp"
 #include "outline/emd.hpp"
 #include "outline/lcs.hpp"
 
 namespace rejoin::cli {
 namespace {
+
+// Nothing is found yet that Ctrl-C could save, and one picture may take long.
+outline::PieceSet read_file_or_end(const std::string& path) {
+  const NothingToSave guard;
+  return outline::read_pieces(path);
+}
+
+outline::PieceSet read_folder_or_end(const std::string& folder) {
+  const NothingToSave guard;
+  return outline::read_folder(folder);
+}
 
 /// A true join's score is hardly ever below.
 constexpr double kUnsure = 0.3;
@@ -73,7 +85,7 @@ std::unique_ptr<outline::Matcher> make_matcher(OutlineMethod method,
 }
 
 outline::Piece load_piece(const std::string& path, Console& console) {
-  outline::PieceSet set = outline::read_pieces(path);
+  outline::PieceSet set = read_file_or_end(path);
   for (const std::string& note : set.notes) console.warning(note);
   if (set.pieces.size() > 1) {
     console.warning(fmt::format("{}: holds {} pieces; the largest is taken", path, set.pieces.size()));
@@ -82,7 +94,7 @@ outline::Piece load_piece(const std::string& path, Console& console) {
 }
 
 outline::PieceSet load_folder(const std::string& folder, Console& console) {
-  outline::PieceSet set = outline::read_folder(folder);
+  outline::PieceSet set = read_folder_or_end(folder);
   for (const std::string& note : set.notes) console.warning(note);
   for (const outline::LeftOut& file : set.unusable) console.warning(file.reason);
   for (const outline::LeftOut& piece : set.repeated) console.warning(piece.reason);

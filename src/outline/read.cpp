@@ -181,6 +181,30 @@ void doubt_resolutions(const std::vector<fs::path>& files, std::vector<std::stri
       most->second, most->first, least->second, least->first));
 }
 
+/// Adds what a file of a folder holds, or why it cannot be used.
+/// \return whether it can
+bool add_file(const fs::path& file, const ExtractOptions& options, PieceSet& all) {
+  const auto unusable = [&](const std::string& reason) {
+    all.unusable.push_back({file.filename().string(), reason});
+    return false;
+  };
+  std::error_code ignored;
+  if (fs::is_other(file, ignored))  // a pipe would be waited for
+    return unusable(file.string() + ": is a pipe or device; take it out of the folder");
+  try {
+    PieceSet set = read_pieces(file.string(), options);
+    std::move(set.pieces.begin(), set.pieces.end(), std::back_inserter(all.pieces));
+    std::move(set.notes.begin(), set.notes.end(), std::back_inserter(all.notes));
+    return true;
+  } catch (const Error& error) {
+    return unusable(error.what());
+  } catch (const std::bad_alloc&) {
+    return unusable(file.string() + ": out of memory; save it smaller");
+  } catch (const std::exception& error) {  // of a library, such as OpenCV
+    return unusable(fmt::format("{}: cannot be used ({}); save it again", file.string(), error.what()));
+  }
+}
+
 PieceSet read_folder(const std::string& folder, const ExtractOptions& options) {
   std::error_code problem;
   std::vector<fs::path> files;
@@ -214,20 +238,7 @@ PieceSet read_folder(const std::string& folder, const ExtractOptions& options) {
          fmt::format("{}: is a picture of a kind that is not read; save it as png, jpg or tif",
                      file.string())});
   }
-  for (const fs::path& file : files) {
-    try {
-      PieceSet set = read_pieces(file.string(), options);
-      std::move(set.pieces.begin(), set.pieces.end(), std::back_inserter(all.pieces));
-      std::move(set.notes.begin(), set.notes.end(), std::back_inserter(all.notes));
-    } catch (const Error& error) {
-      all.unusable.push_back({file.filename().string(), error.what()});
-    } catch (const std::bad_alloc&) {
-      all.unusable.push_back({file.filename().string(), file.string() + ": out of memory; save it smaller"});
-    } catch (const std::exception& error) {  // of a library, such as OpenCV
-      all.unusable.push_back({file.filename().string(), fmt::format("{}: cannot be used ({}); save it again",
-                                                                    file.string(), error.what())});
-    }
-  }
+  std::erase_if(files, [&](const fs::path& file) { return !add_file(file, options, all); });
   doubt_resolutions(files, all.notes);
   take_out_repeats(all);
   if (all.pieces.empty()) throw InputError(folder, "holds nothing that can be used", all.unusable[0].reason);

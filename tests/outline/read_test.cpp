@@ -1,6 +1,7 @@
 #include "outline/read.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
@@ -224,6 +225,18 @@ TEST_F(Read, ResultsAndHiddenFilesOfAFolderAreNoPieces) {
   EXPECT_TRUE(set.unusable.empty());
   ASSERT_EQ(set.notes.size(), 1U);
   EXPECT_NE(set.notes[0].find("2 pictures that rejoin writes"), std::string::npos) << set.notes[0];
+}
+
+TEST_F(Read, PipesAndFoldersWithNamesOfPicturesAreToldAndLeftOut) {
+  cv::imwrite((folder_ / "a.png").string(), blot(30));
+  std::filesystem::create_directory(folder_ / "folder.png");
+  ASSERT_EQ(mkfifo((folder_ / "pipe.png").c_str(), 0600), 0);
+  const PieceSet set = read_folder(folder_.string());
+  EXPECT_EQ(set.pieces.size(), 1U);
+  ASSERT_EQ(set.unusable.size(), 2U);
+  EXPECT_EQ(set.unusable[0].name, "folder.png");
+  EXPECT_EQ(set.unusable[1].name, "pipe.png");
+  EXPECT_NE(set.unusable[1].reason.find("pipe.png: is a pipe or device; "), std::string::npos);
 }
 
 TEST_F(Read, FolderIsReadInTheOrderOfNames) {
