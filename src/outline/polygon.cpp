@@ -97,13 +97,6 @@ Polygon without_repeats(const Polygon& polygon) {
   return result;
 }
 
-void require_finite(const Polygon& polygon, const std::string& subject) {
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    if (std::isfinite(polygon[i].x) && std::isfinite(polygon[i].y)) continue;
-    throw InputError(subject, fmt::format("point {} is not finite", i + 1), "take it out");
-  }
-}
-
 /// The polygon without the smaller of the two loops at the crossing.
 Polygon cut_loop(const Polygon& polygon, const Crossing& at, const std::string& subject) {
   const auto begin = polygon.begin();
@@ -126,6 +119,18 @@ Polygon cut_loop(const Polygon& polygon, const Crossing& at, const std::string& 
 }
 
 }  // namespace
+
+void require_usual_points(const Polygon& polygon, const std::string& subject) {
+  constexpr double kLargest = 1e12;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec2& p = polygon[i];
+    if (std::abs(p.x) <= kLargest && std::abs(p.y) <= kLargest) continue;
+    throw InputError(
+        subject,
+        fmt::format("point {} ({:g}, {:g}) is not within {:g} of the origin", i + 1, p.x, p.y, kLargest),
+        "take it out");
+  }
+}
 
 bool contains(const Polygon& polygon, const glm::dvec2& point) {
   bool inside = false;
@@ -167,7 +172,7 @@ std::optional<Crossing> find_crossing(const Polygon& polygon) {
 }
 
 Polygon mend_polygon(Polygon polygon, const std::string& subject, std::vector<std::string>& notes) {
-  require_finite(polygon, subject);
+  require_usual_points(polygon, subject);
   polygon = without_repeats(polygon);
   std::size_t loops = 0;
   while (polygon.size() >= kLeastPoints) {

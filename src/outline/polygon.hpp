@@ -9,6 +9,10 @@
 
 namespace rejoin::outline {
 
+/// \param subject  file and place for messages
+/// \throws InputError a coordinate is not finite, or beyond 1e12: areas and what is reckoned with them would overflow
+void require_usual_points(const std::vector<glm::dvec2>& polygon, const std::string& subject);
+
 /// Whether a point lies inside a closed polygon (even-odd rule; either answer on the border itself).
 bool contains(const std::vector<glm::dvec2>& polygon, const glm::dvec2& point);
 
@@ -31,8 +35,8 @@ std::optional<Crossing> find_crossing(const std::vector<glm::dvec2>& polygon);
 /// turns it so that its area is positive.
 /// \param subject  file and place for messages
 /// \param notes    gets a sentence for each repair
-/// \throws InputError fewer than 4 distinct points are left (a triangle tells nothing of where it broke), a number is not
-///                    finite, the area is 0, or a loop holds more than 2 % of the area
+/// \throws InputError fewer than 4 distinct points are left (a triangle tells nothing of where it broke), a point is not
+///                    usual, the area is 0, or a loop holds more than 2 % of the area
 std::vector<glm::dvec2> mend_polygon(std::vector<glm::dvec2> polygon, const std::string& subject,
                                      std::vector<std::string>& notes);
 

@@ -117,6 +117,13 @@ TEST_F(Read, BrokenGeoJsonIsRefused) {
   expect_refusal("d.geojson", R"({"type":7,"coordinates":3})", "no polygon");
 }
 
+TEST_F(Read, CoordinatesWhoseAreasOverflowAreRefused) {
+  expect_refusal("a.csv", "-1e308,0\n1e308,0\n1e308,1\n0,1\n", "point 1 (-1e+308, 0) is not within 1e+12");
+  expect_refusal("b.geojson", R"({"type":"Polygon","coordinates":[[[0,0],[1,0],[1,2e12],[0,1]]]})",
+                 "point 3 (1, 2e+12)");
+  expect_refusal("c.svg", "<svg><path d='M0 0 h1 v1 h-1 z M0 0 H1e300 V1e300 z'/></svg>", "shape 2: point 2");
+}
+
 TEST_F(Read, GeoJsonNestedWithoutEndIsRefused) {
   std::string text = R"({"type":"Polygon","coordinates":[]})";
   std::string head;

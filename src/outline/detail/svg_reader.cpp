@@ -105,6 +105,7 @@ class Reader {
     for (Polygon& polygon : found) {
       if (polygon.size() < 3) continue;
       for (glm::dvec2& p : polygon) p = glm::dvec2(transform * glm::dvec3(p, 1.0));
+      require_usual_points(polygon, fmt::format("{}, shape {}", path_, polygons.size() + 1));
       polygons.push_back(std::move(polygon));
     }
   }
