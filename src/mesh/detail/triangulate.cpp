@@ -1,27 +1,65 @@
 #include "mesh/detail/triangulate.hpp"
 
-#include <limits>
+#include <algorithm>
 #include <queue>
 #include <span>
 #include <tuple>
 
+#include "mesh/detail/corner_grid.hpp"
+
 namespace rejoin::mesh::detail {
 namespace {
+
+using Corners = std::span<const std::uint32_t>;
+
+/// Newell's normal: right for every simple polygon, flat or nearly so.
+glm::dvec3 normal_of(const std::vector<glm::dvec3>& points, Corners corners) {
+  const glm::dvec3& first = points[corners[0]];
+  glm::dvec3 normal(0.0);
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    normal += glm::cross(points[corners[i]] - first, points[corners[(i + 1) % corners.size()]] - first);
+  return normal;
+}
+
+/// Places seen along the normal, as turn() does.
+std::vector<glm::dvec2> flattened(const std::vector<glm::dvec3>& points, Corners corners,
+                                  const glm::dvec3& normal) {
+  const glm::dvec3 size = glm::abs(normal);
+  const int least = size.x <= size.y && size.x <= size.z ? 0 : size.y <= size.z ? 1 : 2;
+  glm::dvec3 x(0.0);
+  x[least] = 1.0;
+  glm::dvec3 y = x;
+  if (normal != glm::dvec3(0.0)) {
+    const glm::dvec3 z = glm::normalize(normal / std::max({size.x, size.y, size.z}));
+    x = glm::normalize(glm::cross(x, z));
+    y = glm::cross(z, x);
+  }
+  std::vector<glm::dvec2> places;
+  places.reserve(corners.size());
+  for (const std::uint32_t corner : corners) {
+    const glm::dvec3 from_first = points[corner] - points[corners[0]];
+    places.emplace_back(glm::dot(from_first, x), glm::dot(from_first, y));
+  }
+  return places;
+}
 
 /// Cuts ears off one polygon, always the one with the shortest cut, so that a quad gets its short diagonal.
 class EarCutter {
  public:
-  EarCutter(const std::vector<glm::dvec3>& points, std::span<const std::uint32_t> corners)
-      : points_(points), corners_(corners), left_(corners.size()), before_(left_), after_(left_) {
-    // Newell's normal: right for every simple polygon, flat or nearly so.
+  EarCutter(const std::vector<glm::dvec3>& points, Corners corners)
+      : points_(points),
+        corners_(corners),
+        left_(corners.size()),
+        before_(left_),
+        after_(left_),
+        normal_(normal_of(points, corners)),
+        states_(left_, 0),
+        hollow_(flattened(points, corners, normal_)),
+        stopped_by_(left_) {
     for (std::size_t i = 0; i < left_; ++i) {
       after_[i] = i + 1 < left_ ? i + 1 : 0;
       before_[i] = i > 0 ? i - 1 : left_ - 1;
-      normal_ += glm::cross(point(i) - point(0), point(after_[i]) - point(0));
     }
-    place_in_hollow_.assign(left_, kNone);
-    stopped_by_.resize(left_);
-    states_.assign(left_, 0);
     for (std::size_t i = 0; i < left_; ++i) look_at(i);
   }
 
@@ -35,8 +73,6 @@ class EarCutter {
   }
 
  private:
-  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-
   /// A corner that may be cut off; nothing if the corner has changed since.
   struct Candidate {
     double length;  ///< of the cut, squared
@@ -64,9 +100,8 @@ class EarCutter {
     if (turn(point(before_[i]), point(i), point(after_[i])) > 0) {
       leave_hollow(i);
       offer(i);
-    } else if (place_in_hollow_[i] == kNone) {
-      place_in_hollow_[i] = hollow_.size();
-      hollow_.push_back(i);
+    } else if (!hollow_.has(i)) {
+      hollow_.add(i);
     }
   }
 
@@ -77,28 +112,25 @@ class EarCutter {
 
   /// The corner stops no ear any longer.
   void leave_hollow(std::size_t i) {
-    if (place_in_hollow_[i] == kNone) return;
-    const std::size_t last = hollow_.back();
-    hollow_[place_in_hollow_[i]] = last;
-    place_in_hollow_[last] = place_in_hollow_[i];
-    hollow_.pop_back();
-    place_in_hollow_[i] = kNone;
+    if (!hollow_.has(i)) return;
+    hollow_.remove(i);
     for (const Candidate& stopped : stopped_by_[i])
       if (states_[stopped.at] == stopped.state) candidates_.push(stopped);
     stopped_by_[i].clear();
   }
 
-  /// A corner where the border turns in that lies in the triangle to be cut off; kNone: it is an ear.
+  /// A corner where the border turns in that lies in the triangle to be cut off; CornerGrid::kNone: it is an ear.
   std::size_t stopper(std::size_t i) const {
     const glm::dvec3& a = point(before_[i]);
     const glm::dvec3& b = point(i);
     const glm::dvec3& c = point(after_[i]);
-    for (const std::size_t k : hollow_) {
-      if (k == before_[i] || k == after_[i]) continue;
+    const CornerGrid::Triangle triangle{hollow_.place(before_[i]), hollow_.place(i),
+                                        hollow_.place(after_[i])};
+    return hollow_.find(triangle, [&](std::size_t k) {
+      if (k == before_[i] || k == after_[i]) return false;
       const glm::dvec3& p = point(k);
-      if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0) return k;
-    }
-    return kNone;
+      return turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0;
+    });
   }
 
   /// The second corner left where a polygon has no ear (a fan then).
@@ -108,7 +140,7 @@ class EarCutter {
       candidates_.pop();
       if (states_[best.at] != best.state) continue;
       const std::size_t in_the_way = stopper(best.at);
-      if (in_the_way == kNone) return best.at;
+      if (in_the_way == CornerGrid::kNone) return best.at;
       stopped_by_[in_the_way].push_back(best);
     }
     return after_[first_];
@@ -128,16 +160,15 @@ class EarCutter {
   }
 
   const std::vector<glm::dvec3>& points_;
-  std::span<const std::uint32_t> corners_;
+  Corners corners_;
   std::size_t left_;                 ///< corners
   std::vector<std::size_t> before_;  ///< each corner's neighbours among those left
   std::vector<std::size_t> after_;
   std::size_t first_ = 0;
-  glm::dvec3 normal_{0.0};
+  glm::dvec3 normal_;
   std::vector<std::uint32_t> states_;  ///< how often a corner's neighbours have changed
   std::priority_queue<Candidate> candidates_;
-  std::vector<std::size_t> hollow_;                 ///< corners where the border turns in
-  std::vector<std::size_t> place_in_hollow_;        ///< of each corner
+  CornerGrid hollow_;                               ///< corners where the border turns in
   std::vector<std::vector<Candidate>> stopped_by_;  ///< what cannot be cut because of each corner
 };
 
@@ -148,7 +179,7 @@ std::vector<glm::uvec3> triangulate(const Soup& soup) {
   faces.reserve(soup.sizes.size());
   std::size_t first = 0;
   for (const std::uint32_t size : soup.sizes) {
-    const std::span corners(soup.corners.data() + first, size);
+    const Corners corners(soup.corners.data() + first, size);
     first += size;
     if (size == 3) {
       faces.emplace_back(corners[0], corners[1], corners[2]);
