@@ -9,7 +9,6 @@
 
 #include "cli/json_values.hpp"
 #include "core/error.hpp"
-#include "core/files.hpp"
 
 namespace rejoin::cli {
 namespace {
@@ -58,7 +57,7 @@ class Reader {
         repeated = value.get<std::string>();
       return true;
     };
-    ordered_json json = ordered_json::parse(read_file(path_), look, false);
+    ordered_json json = ordered_json::parse(read_json_text(path_, kMend), look, false);
     if (!json.is_discarded() && repeated) fail(fmt::format("gives \"{}\" twice", *repeated));
     return json;
   }

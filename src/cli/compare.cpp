@@ -18,16 +18,17 @@ namespace {
 
 using nlohmann::ordered_json;
 
+constexpr const char* kMend = "give the JSON of rejoin match";
+
 /// The 4 x 4 matrix of a file: rejoin match's JSON, or the bare rows.
 /// \throws IoError it cannot be read   \throws InputError it holds no proper rigid motion
 Rigid read_pose(const std::string& path) {
-  const ordered_json json = ordered_json::parse(read_file(path), nullptr, false);
-  if (json.is_discarded()) throw InputError(path, "is no JSON", "give the JSON of rejoin match");
+  const ordered_json json = ordered_json::parse(read_json_text(path, kMend), nullptr, false);
+  if (json.is_discarded()) throw InputError(path, "is no JSON", kMend);
   const ordered_json& rows = json.is_object() && json.contains("pose") ? json["pose"] : json;
   const std::optional<Rigid> pose = rigid_from_json(rows);
   if (!pose) {
-    throw InputError(path, "\"pose\" is no 4 x 4 matrix of a rotation and a shift",
-                     "give the JSON of rejoin match");
+    throw InputError(path, "\"pose\" is no 4 x 4 matrix of a rotation and a shift", kMend);
   }
   return *pose;
 }

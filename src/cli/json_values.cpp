@@ -1,6 +1,12 @@
 #include "cli/json_values.hpp"
 
+#include <fmt/core.h>
+
 #include <cmath>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+#include "core/json_depth.hpp"
 
 namespace rejoin::cli {
 
@@ -64,6 +70,13 @@ std::optional<Rigid> rigid_from_json(const ordered_json& rows) {
   if (!is_rotation(pose.rotation)) return std::nullopt;
   pose.rotation = orthonormal(pose.rotation);
   return pose;
+}
+
+std::string read_json_text(const std::string& path, const std::string& mend) {
+  std::string text = read_file(path);
+  if (json_depth(text) > kDeepestJson)
+    throw InputError(path, fmt::format("its JSON is nested deeper than {}", kDeepestJson), mend);
+  return text;
 }
 
 std::string text_of(const ordered_json& json) {

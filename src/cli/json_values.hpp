@@ -18,6 +18,11 @@ nlohmann::ordered_json to_json(const Rigid& pose);
 /// matrices come with few digits; the rotation is then made orthonormal).
 std::optional<Rigid> rigid_from_json(const nlohmann::ordered_json& rows);
 
+/// The text of a JSON file; whether it is JSON is for the parser to say.
+/// \param mend  what to do about one that is nested without end
+/// \throws IoError it cannot be read   \throws InputError it is nested deeper than kDeepestJson
+std::string read_json_text(const std::string& path, const std::string& mend);
+
 /// The file's text.  A path may be no UTF-8, but JSON must be: such bytes are replaced.
 std::string text_of(const nlohmann::ordered_json& json);
 

@@ -7,7 +7,6 @@
 
 #include "cli/json_values.hpp"
 #include "core/error.hpp"
-#include "core/files.hpp"
 #include "core/version.hpp"
 
 namespace rejoin::cli {
@@ -18,7 +17,7 @@ using nlohmann::ordered_json;
 constexpr const char* kSchema = "rejoin.outline-calibration/1";
 
 ordered_json parse_file(const std::string& path, const char* mend) {
-  ordered_json json = ordered_json::parse(read_file(path), nullptr, false);
+  ordered_json json = ordered_json::parse(read_json_text(path, mend), nullptr, false);
   if (json.is_discarded() || !json.is_object()) throw InputError(path, "is no JSON object", mend);
   return json;
 }

@@ -14,7 +14,6 @@
 #include "cli/assemble_input.hpp"
 #include "cli/json_values.hpp"
 #include "core/error.hpp"
-#include "core/files.hpp"
 #include "core/words.hpp"
 #include "mesh/load.hpp"
 #include "mesh/surface.hpp"
@@ -33,8 +32,10 @@ constexpr std::size_t kLeastFaces = 4'000;
 /// Numbers of the fragments by name.
 using Numbers = std::map<std::string, std::size_t>;
 
+constexpr const char* kMend = "make it again with rejoin assemble";
+
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& problem) {
-  throw InputError(path.string(), problem, "make it again with rejoin assemble");
+  throw InputError(path.string(), problem, kMend);
 }
 
 /// Takes poses, groups and joins over from the assembly.
@@ -57,7 +58,7 @@ class AssemblyReader {
 
  private:
   std::string read_fields() {
-    const ordered_json json = ordered_json::parse(read_file(path_), nullptr, false);
+    const ordered_json json = ordered_json::parse(read_json_text(path_.string(), kMend), nullptr, false);
     if (!json.is_object() || json.value("schema", "") != "rejoin.assembly/1")
       refuse(path_, "is no assembly (schema rejoin.assembly/1)");
     if (!json.contains("fragments") || !json["fragments"].is_object()) refuse(path_, "has no \"fragments\"");

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/files.hpp"
+#include "core/json_depth.hpp"
 
 namespace rejoin::mesh {
 namespace {
@@ -31,7 +32,9 @@ std::string percent_decoded(const std::string& uri) {
 std::vector<std::filesystem::path> files_of(const std::filesystem::path& path) {
   std::vector<std::filesystem::path> files{path};
   if (extension_of(path) != ".gltf") return files;
-  const nlohmann::json root = nlohmann::json::parse(read_file(path), nullptr, false);
+  const std::string text = read_file(path);
+  if (json_depth(text) > kDeepestJson) return files;
+  const nlohmann::json root = nlohmann::json::parse(text, nullptr, false);
   if (!root.is_object() || !root.contains("buffers") || !root["buffers"].is_array()) return files;
   for (const nlohmann::json& buffer : root["buffers"]) {
     if (!buffer.is_object() || !buffer.contains("uri") || !buffer["uri"].is_string()) continue;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cstring>
 #include <filesystem>
@@ -12,13 +11,13 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "core/json_depth.hpp"
 
 namespace rejoin::mesh::detail {
 namespace {
 
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A;
 constexpr std::uint32_t kBinaryChunk = 0x004E4942;
-constexpr int kDeepest = 200;  // JSON within JSON: what writes it again calls itself
 constexpr std::size_t kGlbHeader = 12;
 constexpr std::size_t kChunkHeader = 8;
 
@@ -86,30 +85,12 @@ void check_extensions(const nlohmann::json& root, const std::string& name) {
   }
 }
 
-/// How many brackets of JSON lie in one another.  Counted here, as nlohmann's parser with a callback looks at all of a list
-/// again for each of its entries.
-int depth_of(std::string_view json) {
-  int depth = 0;
-  int deepest = 0;
-  bool quoted = false;
-  for (std::size_t i = 0; i < json.size(); ++i) {
-    const char c = json[i];
-    if (c == '"') quoted = !quoted;
-    if (quoted) {
-      if (c == '\\') ++i;
-    } else if (c == '[' || c == '{') {
-      deepest = std::max(deepest, ++depth);
-    } else if (c == ']' || c == '}') {
-      --depth;
-    }
-  }
-  return deepest;
-}
-
 /// The text with only what is needed.
 std::string reduced(std::string_view text, const std::string& name) {
-  if (depth_of(text) > kDeepest)
-    throw InputError(name, fmt::format("glTF JSON is nested deeper than {}", kDeepest), "export it again");
+  // Not by the parser's callback, for which it looks at all of a list again for each of the entries.
+  if (json_depth(text) > kDeepestJson)
+    throw InputError(name, fmt::format("glTF JSON is nested deeper than {}", kDeepestJson),
+                     "export it again");
   nlohmann::json root = nlohmann::json::parse(text, nullptr, false);
   if (root.is_discarded() || !root.is_object())
     throw InputError(name, "is not a glTF file (its JSON cannot be read)", "check the file's format");

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/json_depth.hpp"
 #include "outline/detail/readers.hpp"
 
 namespace rejoin::outline::detail {
@@ -10,20 +11,19 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kDeepest = 200;  // collections in collections
 constexpr const char* kMend = "give a GeoJSON file with Polygon or MultiPolygon geometries";
 
 class Reader {
  public:
   explicit Reader(const std::string& path) : path_(path) {}
 
-  void read(const json& value, int depth = 0) {
-    if (depth > kDeepest) fail(fmt::format("geometries are nested deeper than {}", kDeepest));
+  /// \pre its JSON is no deeper than kDeepestJson: this calls itself
+  void read(const json& value) {
     const bool typed = value.is_object() && value.contains("type") && value["type"].is_string();
     const std::string type = typed ? value["type"].get<std::string>() : "";
-    if (type == "FeatureCollection") return read_all(value, "features", depth);
-    if (type == "GeometryCollection") return read_all(value, "geometries", depth);
-    if (type == "Feature" && value.contains("geometry")) return read(value["geometry"], depth + 1);
+    if (type == "FeatureCollection") return read_all(value, "features");
+    if (type == "GeometryCollection") return read_all(value, "geometries");
+    if (type == "Feature" && value.contains("geometry")) return read(value["geometry"]);
     if (type == "Polygon") return add(member(value, "coordinates"));
     if (type == "MultiPolygon") {
       for (const json& polygon : member(value, "coordinates")) add(polygon);
@@ -33,8 +33,8 @@ class Reader {
   std::vector<Rings> result;
 
  private:
-  void read_all(const json& value, const char* name, int depth) {
-    for (const json& each : member(value, name)) read(each, depth + 1);
+  void read_all(const json& value, const char* name) {
+    for (const json& each : member(value, name)) read(each);
   }
 
   [[noreturn]] void fail(const std::string& problem) const {
@@ -72,6 +72,8 @@ class Reader {
 }  // namespace
 
 std::vector<Rings> read_geojson(const std::string& path, const std::string& text) {
+  if (json_depth(text) > kDeepestJson)
+    throw InputError(path, fmt::format("its JSON is nested deeper than {}", kDeepestJson), kMend);
   const json value = json::parse(text, nullptr, false);
   if (value.is_discarded()) throw InputError(path, "is no JSON, or cut short", kMend);
   Reader reader(path);
