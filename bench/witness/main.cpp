@@ -122,7 +122,8 @@ class Survey {
   double ask(const Question& question) const {
     std::vector<Rigid> poses = truth_;
     for (const assembly::Link& link : question.links) poses[link.b] = poses[link.a] * link.pose;
-    return assembly::witness_odds(pieces_, question.links, question.groups, std::move(poses), {});
+    return assembly::witness_odds(pieces_, question.links, question.groups, std::move(poses), {})
+        .value_or(0.0);
   }
 
   Shelf shelf_;

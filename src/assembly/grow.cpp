@@ -175,12 +175,13 @@ bool Grower::hear(State& state, const Context& context) {
       questions.push_back(question(state, {p.link}));
     }
   }
-  const std::vector<double> heard = answers(state, questions, context);
+  const Answers heard = answers(state, questions, context);
   bool any = false;
   for (std::size_t k = 0; k < open.size(); ++k) {
     Proposal& p = *open[k];
     p.heard = true;
-    p.agreeing = p.agreeing > 0.0 ? std::max(p.agreeing, heard[k]) : heard[k];
+    const double more = heard[k].value_or(0.0);
+    p.agreeing = p.agreeing > 0.0 ? std::max(p.agreeing, more) : more;
     any = any || p.certainty() >= sure;
   }
   for (auto& [key, list] : state.proposals) rank(list);
@@ -206,7 +207,7 @@ Grower::Question Grower::question(const State& state, std::vector<std::size_t> l
 }
 
 /// What the contacts of other pairs add if links put groups together.
-double Grower::answer(const State& state, const Question& question) const {
+std::optional<double> Grower::answer(const State& state, const Question& question) const {
   std::vector<Rigid> poses = state.growth.poses;
   std::vector<Link> links;
   for (const std::size_t link : question.links) links.push_back(links_[link]);
@@ -228,9 +229,9 @@ double Grower::answer(const State& state, const Question& question) const {
 }
 
 /// Answers of several questions, also of those that were asked before.
-std::vector<double> Grower::answers(const State& state, std::vector<Question>& questions,
-                                    const Context& context) {
-  std::vector<double> result(questions.size());
+Grower::Answers Grower::answers(const State& state, std::vector<Question>& questions,
+                                const Context& context) {
+  Answers result(questions.size());
   parallel_for(questions.size(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last && !context.cancelled(); ++k) {
       const auto known = answered_.find(questions[k]);
@@ -260,18 +261,28 @@ bool Grower::try_best(State& state) {
 }
 
 /// Unsure links of two pairs of groups with one group in common, which are worth hearing together.
-std::vector<Grower::Two> Grower::unsure_together(const State& state) const {
+std::vector<Grower::Two> Grower::unsure_together(const State& state, const Context& context) {
+  std::vector<const Proposal*> unsure;
+  std::vector<Question> questions;
+  for (const auto& [key, list] : state.proposals) {
+    for (const Proposal& p : list) {
+      if (p.certainty() < kTogetherOdds) continue;
+      unsure.push_back(&p);
+      questions.push_back(question(state, {p.link}));
+    }
+  }
+  const Answers alone = answers(state, questions, context);
   struct End {
     const Proposal* proposal;
     std::size_t group;  // that it joins with the common one
   };
   std::map<std::size_t, std::vector<End>> ends;  // by the common group
-  for (const auto& [key, list] : state.proposals) {
-    for (const Proposal& p : list) {
-      if (p.certainty() < kTogetherOdds) continue;
-      ends[key.first].push_back({&p, key.second});
-      ends[key.second].push_back({&p, key.first});
-    }
+  for (std::size_t k = 0; k < unsure.size(); ++k) {
+    if (!alone[k]) continue;  // nor would it fit with another
+    const Link& link = links_[unsure[k]->link];
+    const auto [g, h] = key_of(state.growth.group[link.a], state.growth.group[link.b]);
+    ends[g].push_back({unsure[k], h});
+    ends[h].push_back({unsure[k], g});
   }
   std::vector<Two> result;
   for (const auto& [common, list] : ends) {
@@ -289,19 +300,20 @@ std::vector<Grower::Two> Grower::unsure_together(const State& state) const {
 
 /// Three groups that two unsure joins put together, so that contacts of other pairs speak for both at once.
 bool Grower::try_two(State& state, const Context& context) {
-  const std::vector<Two> unsure = unsure_together(state);
+  const std::vector<Two> unsure = unsure_together(state, context);
   std::vector<Question> questions;
   questions.reserve(unsure.size());
   for (const Two& two : unsure) questions.push_back(question(state, {two.links.begin(), two.links.end()}));
-  const std::vector<double> heard = answers(state, questions, context);
+  const Answers heard = answers(state, questions, context);
   double most = log_odds(options_.sure) + kTogether;
   std::array<std::size_t, 2> best{};
   double vouched = 0.0;
   for (std::size_t k = 0; k < unsure.size(); ++k) {
-    if (unsure[k].alone + heard[k] <= most) continue;
-    most = unsure[k].alone + heard[k];
+    const double certainty = unsure[k].alone + heard[k].value_or(0.0);
+    if (!heard[k] || certainty <= most) continue;
+    most = certainty;
     best = unsure[k].links;
-    vouched = heard[k];
+    vouched = *heard[k];
   }
   if (best[0] == best[1]) return false;
   for (const std::size_t link : best) {  // whatever happens, these two are not tried again

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -81,6 +82,9 @@ class Grower {
     }
   };
 
+  /// Log-odds that contacts of other pairs add; nothing where pieces would lie in each other.
+  using Answers = std::vector<std::optional<double>>;
+
   /// Two links that make three groups one.
   struct Two {
     std::array<std::size_t, 2> links;
@@ -105,11 +109,11 @@ class Grower {
   void settle_all(State& state, const Context& context) const;
   bool hear(State& state, const Context& context);
   Question question(const State& state, std::vector<std::size_t> links) const;
-  double answer(const State& state, const Question& question) const;
-  std::vector<double> answers(const State& state, std::vector<Question>& questions, const Context& context);
+  std::optional<double> answer(const State& state, const Question& question) const;
+  Answers answers(const State& state, std::vector<Question>& questions, const Context& context);
   bool try_best(State& state);
   bool try_two(State& state, const Context& context);
-  std::vector<Two> unsure_together(const State& state) const;
+  std::vector<Two> unsure_together(const State& state, const Context& context);
   bool fits(State& state, std::size_t link);
   bool overlap(std::size_t a, std::size_t b, const Rigid& b_to_a);
   void merge(State& state, std::size_t link, double odds) const;
@@ -127,8 +131,8 @@ class Grower {
   std::vector<double> odds_;                          ///< log-odds, one a link
   std::map<Key, std::vector<std::size_t>> links_of_;  ///< by fragments, best first
   std::vector<Key> wanted_, unwanted_;
-  std::map<Question, double> answered_;  ///< what contacts said before, wherever the groups lay by then
-  std::map<std::vector<double>, bool> overlaps_;  ///< what was computed before, by pair and pose
+  std::map<Question, std::optional<double>> answered_;  ///< before, wherever the groups lay by then
+  std::map<std::vector<double>, bool> overlaps_;        ///< what was computed before, by pair and pose
 };
 
 }  // namespace rejoin::assembly

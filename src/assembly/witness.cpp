@@ -23,8 +23,8 @@ class Meeting {
           const Options& options)
       : pieces_(pieces), links_(links), groups_(groups), poses_(std::move(poses)), options_(options) {}
 
-  double odds() {
-    if (overlaps()) return 0.0;  // most do, and it shows soonest
+  std::optional<double> odds() {
+    if (overlaps()) return std::nullopt;  // most do, and it shows soonest
     std::vector<Touching> contacts = between_groups();
     if (contacts.size() <= links_.size()) return 0.0;
     const std::size_t others = contacts.size();
@@ -52,37 +52,53 @@ class Meeting {
     });
   }
 
-  /// Visits every two pieces of different groups until one says true.
+  bool are_linked(const std::vector<std::size_t>& first, const std::vector<std::size_t>& second) const {
+    const auto in = [](const std::vector<std::size_t>& group, std::size_t piece) {
+      return std::ranges::find(group, piece) != group.end();
+    };
+    return std::ranges::any_of(links_, [&](const Link& link) {
+      return (in(first, link.a) && in(second, link.b)) || (in(first, link.b) && in(second, link.a));
+    });
+  }
+
+  /// Visits every two pieces of two groups until one says true.
   template <typename Visit>
-  bool any_two(const Visit& visit) const {
-    for (std::size_t g = 0; g < groups_.size(); ++g) {
-      for (std::size_t h = g + 1; h < groups_.size(); ++h) {
-        for (const std::size_t a : groups_[g]) {
-          for (const std::size_t b : groups_[h]) {
-            if (visit(a, b)) return true;
-          }
-        }
-      }
-    }
-    return false;
+  static bool any_two(const std::vector<std::size_t>& first, const std::vector<std::size_t>& second,
+                      const Visit& visit) {
+    return std::ranges::any_of(first, [&](std::size_t a) {
+      return std::ranges::any_of(second, [&](std::size_t b) { return visit(a, b); });
+    });
   }
 
   /// The links' own pairs and all others that touch; a of the earlier group.
   std::vector<Touching> between_groups() const {
     std::vector<Touching> contacts;
-    any_two([&](std::size_t a, std::size_t b) {
+    const auto add = [&](std::size_t a, std::size_t b) {
       const Rigid b_to_a = relative(a, b);
       const double least = kContact * std::min(pieces_[a].area(), pieces_[b].area());
       if (is_own(a, b) || touch(pieces_[a], pieces_[b], b_to_a).area > least)
         contacts.push_back({a, b, b_to_a, false});
       return false;
-    });
+    };
+    for (std::size_t g = 0; g < groups_.size(); ++g)
+      for (std::size_t h = g + 1; h < groups_.size(); ++h) any_two(groups_[g], groups_[h], add);
     return contacts;
   }
 
+  /// Looks last between groups with a link: they were asked about alone before.
   bool overlaps() const {
-    return any_two(
-        [&](std::size_t a, std::size_t b) { return interpenetrate(pieces_[a], pieces_[b], relative(a, b)); });
+    const auto overlap = [&](std::size_t a, std::size_t b) {
+      return interpenetrate(pieces_[a], pieces_[b], relative(a, b));
+    };
+    for (const bool linked : {false, true}) {
+      for (std::size_t g = 0; g < groups_.size(); ++g) {
+        for (std::size_t h = g + 1; h < groups_.size(); ++h) {
+          if (are_linked(groups_[g], groups_[h]) == linked && any_two(groups_[g], groups_[h], overlap))
+            return true;
+        }
+      }
+    }
+    return false;
   }
 
   /// The first group stays, as far as the others touch it; adds what holds the other groups together to the contacts.
@@ -125,9 +141,9 @@ double witness_odds(const match::Evidence& evidence) {
   return patches * contact + std::max(0.0, shape);
 }
 
-double witness_odds(const std::vector<Piece>& pieces, const std::vector<Link>& links,
-                    const std::vector<std::vector<std::size_t>>& groups, std::vector<Rigid> poses,
-                    const Options& options) {
+std::optional<double> witness_odds(const std::vector<Piece>& pieces, const std::vector<Link>& links,
+                                   const std::vector<std::vector<std::size_t>>& groups,
+                                   std::vector<Rigid> poses, const Options& options) {
   return Meeting(pieces, links, groups, std::move(poses), options).odds();
 }
 

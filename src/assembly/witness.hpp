@@ -1,6 +1,7 @@
 /// What contacts say that no search looked for.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "assembly/evidence.hpp"
@@ -16,9 +17,9 @@ double witness_odds(const match::Evidence& evidence);
 /// adds up the log-odds that those of other pairs than the links' own give.
 /// \param groups  the first, best the largest, stays; the others are aligned to it
 /// \param poses   of all pieces, those of the groups in one frame: where the links put them
-/// \return 0 if no other pair touches, if pieces would lie in each other, or if the contacts pull a link's pair apart
-double witness_odds(const std::vector<Piece>& pieces, const std::vector<Link>& links,
-                    const std::vector<std::vector<std::size_t>>& groups, std::vector<Rigid> poses,
-                    const Options& options);
+/// \return 0 if no other pair touches, or if the contacts pull a link's pair apart; nothing if pieces would lie in each other
+std::optional<double> witness_odds(const std::vector<Piece>& pieces, const std::vector<Link>& links,
+                                   const std::vector<std::vector<std::size_t>>& groups,
+                                   std::vector<Rigid> poses, const Options& options);
 
 }  // namespace rejoin::assembly

@@ -171,9 +171,9 @@ TEST(Witness, OtherContactsSpeakForTrueLinksOnly) {
     poses[link.b] = poses[link.a] * link.pose;
     return witness_odds(pieces, {link}, {{corner.a, corner.b}, {corner.c}}, poses, {});
   };
-  EXPECT_GT(heard(ball().true_link(corner.a, corner.c, 0.5)), 6.0);
-  EXPECT_LE(heard(ball().false_link(corner.a, corner.c, 0.5, 20.0, 0.05)), 0.0);
-  EXPECT_LE(heard(ball().inside_link(corner.a, corner.c, 0.5)), 0.0);
+  EXPECT_GT(heard(ball().true_link(corner.a, corner.c, 0.5)).value_or(0.0), 6.0);
+  EXPECT_LE(heard(ball().false_link(corner.a, corner.c, 0.5, 20.0, 0.05)).value_or(0.0), 0.0);
+  EXPECT_FALSE(heard(ball().inside_link(corner.a, corner.c, 0.5)));
 }
 
 TEST(Witness, CloseContactSpeaksForAPoseAndLooseContactAgainst) {
