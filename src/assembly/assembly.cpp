@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <optional>
+#include <string_view>
 #include <tuple>
 
 #include "assembly/complete.hpp"
@@ -20,10 +22,16 @@ constexpr double kFound = 0.006;   // contact without a candidate: least share o
 constexpr double kMet = 0.0005;    // of a pair that must join, the same
 constexpr double kSpacing = 0.15;  // between groups, share of the larger one's size
 
-std::vector<Piece> make_pieces(const std::vector<match::Fragment>& fragments) {
+std::vector<Piece> make_pieces(const std::vector<match::Fragment>& fragments, const Context& context) {
   std::vector<std::optional<Piece>> slots(fragments.size());
+  std::mutex reporting;
+  std::size_t done = 0;
   parallel_for(fragments.size(), 1, [&](std::size_t first, std::size_t last) {
-    for (std::size_t k = first; k < last; ++k) slots[k].emplace(fragments[k]);
+    for (std::size_t k = first; k < last; ++k) {
+      slots[k].emplace(fragments[k]);
+      const std::lock_guard lock(reporting);
+      context.report("prepare", static_cast<double>(++done) / static_cast<double>(slots.size()));
+    }
   });
   std::vector<Piece> pieces;
   pieces.reserve(slots.size());
@@ -51,10 +59,13 @@ std::vector<Link> all_links(const std::vector<Piece>& pieces, std::vector<Link> 
 /// Grows, and again with each strong join first that was left out, as long as that gives more evidence.
 Growth best_growth(Grower& grower, const Options& options, const Context& context) {
   std::set<std::size_t> first;
-  Growth best = grower.grow(first, context);
+  const Context half([&](std::string_view stage, double part) { context.report(stage, 0.5 * part); },
+                     context);
+  const Context silent({}, context);
+  Growth best = grower.grow(first, half);
   std::set<std::size_t> tried;
   for (int k = 0; k < options.retries && !context.cancelled(); ++k) {
-    context.report("grow", static_cast<double>(k) / options.retries);
+    context.report("grow", 0.5 + 0.5 * static_cast<double>(k) / options.retries);
     const std::vector<std::size_t> left_out = grower.unsatisfied(best);
     const auto next =
         std::find_if(left_out.begin(), left_out.end(), [&](std::size_t l) { return tried.count(l) == 0; });
@@ -62,7 +73,7 @@ Growth best_growth(Grower& grower, const Options& options, const Context& contex
     tried.insert(*next);
     std::set<std::size_t> with = first;
     with.insert(*next);
-    Growth other = grower.grow(with, context);
+    Growth other = grower.grow(with, silent);
     if (context.cancelled() || other.evidence <= best.evidence + 1e-9) continue;
     best = std::move(other);
     first = std::move(with);
@@ -75,7 +86,7 @@ class Assembler {
   Assembler(const std::vector<match::Fragment>& fragments, const std::vector<Link>& links,
             const Options& options, const Context& context)
       : options_(options),
-        pieces_(make_pieces(fragments)),
+        pieces_(make_pieces(fragments, context)),
         given_(links.size()),
         links_(all_links(pieces_, links, options, context)),
         grower_(pieces_, links_, options_) {}

@@ -52,8 +52,10 @@ bool Grower::must(const std::vector<Key>& pairs, std::size_t link) const {
 
 Growth Grower::grow(const std::set<std::size_t>& first, const Context& context) {
   State state = start(first);
+  const auto groups = static_cast<double>(state.members.size());
   while (!context.cancelled() &&
          (try_best(state) || (hear(state, context) && try_best(state)) || try_two(state, context))) {
+    context.report("grow", 1.0 - static_cast<double>(state.members.size()) / groups);
   }
   tell_contradictions(state);
   sum_up(state.growth);

@@ -45,7 +45,8 @@ class Grower {
   /// Pairs whose links go before all others from now on, best first, if they fit; none before.
   void want(const std::vector<std::pair<std::size_t, std::size_t>>& pairs);
 
-  /// \param first  links that go before all others but those of wanted pairs, if they fit
+  /// \param first    links that go before all others but those of wanted pairs, if they fit
+  /// \param context  told by how many the groups have become fewer
   Growth grow(const std::set<std::size_t>& first, const Context& context);
 
   /// Strong links that the growth leaves unsatisfied: those of two groups, or of one group with another pose.
