@@ -1,11 +1,13 @@
 #include "core/files.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cctype>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <iostream>
@@ -46,6 +48,16 @@ bool is_device(const fs::path& path) {
                 reason == ENAMETOOLONG
                     ? "choose a shorter name"
                     : "check the folder, its permissions and its space, or choose another place");
+}
+
+/// Waits until the disk holds the file's content: a name given before may outlive a power cut without it, and a full disk
+/// behind a network is told by then only.  \return 0, or the system's reason
+int flush_to_disk(const fs::path& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return errno == EACCES ? 0 : errno;                    // where new files may not be read
+  const int reason = fsync(file) == 0 || errno == EINVAL ? 0 : errno;  // EINVAL: a file system that cannot
+  close(file);
+  return reason;
 }
 
 }  // namespace
@@ -146,12 +158,11 @@ void write_file(const fs::path& path, const std::function<void(std::ostream&)>& 
     refuse(path, reason);
   }
   if (direct) return;
-  fs::rename(target, path, problem);
-  if (problem) {
-    const int reason = problem.value();
-    fs::remove(target, problem);
-    refuse(path, reason);
-  }
+  int reason = flush_to_disk(target);
+  if (reason == 0 && std::rename(target.c_str(), path.c_str()) != 0) reason = errno;
+  if (reason == 0) return;
+  fs::remove(target, problem);
+  refuse(path, reason);
 }
 
 }  // namespace rejoin

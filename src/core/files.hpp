@@ -30,8 +30,8 @@ void require_writable_folder(const std::filesystem::path& folder);
 /// \throws IoError also if it holds anything
 void require_empty_folder(const std::filesystem::path& folder);
 
-/// The file appears whole or not at all (written beside and renamed); a device such as /dev/stdout is written
-/// to directly.  \throws IoError
+/// The file appears whole or not at all, whatever ends the program or the machine (written beside, flushed to the disk and
+/// renamed); a device such as /dev/stdout is written to directly.  \throws IoError
 void write_file(const std::filesystem::path& path, std::string_view content);
 
 /// The same for content that is too long for memory.
