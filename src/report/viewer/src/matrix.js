@@ -1,5 +1,5 @@
 // Scores of all pairs as a picture; the pointer or the arrow keys tell which is which.
-import {css, evenColour, gradient} from './colours.js';
+import {evenColour, gradient} from './colours.js';
 import {h, nameElement, replace, shortened, tidy} from './dom.js';
 import {bytesOf} from './numbers.js';
 
@@ -15,6 +15,7 @@ export class Matrix {
     this.count = data.fragments.length;
     this.scores = bytesOf(data.scores);
     this.order = [...data.fragments.keys()].sort((a, b) => this.#rank(a) - this.#rank(b) || a - b);
+    this.used = this.#usedCells();
     this.cursor = [0, Math.min(1, this.count - 1)];
     this.canvas = h('canvas', {
       tabindex: 0,
@@ -76,17 +77,50 @@ export class Matrix {
   }
 
   #cells(context, style) {
-    const gap = this.cell > 6 ? 1 : 0;
-    const used = new Set(this.data.pairs.filter((pair) => pair.used).flatMap(({a, b}) => [`${a},${b}`, `${b},${a}`]));
-    for (let row = 0; row < this.count; ++row) {
-      for (let column = 0; column < this.count; ++column) {
-        const [i, j] = [this.order[row], this.order[column]];
-        const score = i === j ? null : this.score(i, j);
-        context.fillStyle = score === null ? style.getPropertyValue(i === j ? '--line' : '--faint') : css(evenColour(score));
-        context.fillRect(this.margin + column * this.cell, this.margin + row * this.cell, this.cell - gap, this.cell - gap);
-        if (used.has(`${i},${j}`)) this.#frame(context, row, column, style.getPropertyValue('--ink'), this.cell > 8 ? 2 : 1);
-      }
+    const {margin, cell, count} = this;
+    if (count === 0) return;
+    const side = cell * count;
+    context.fillStyle = style.getPropertyValue('--faint');
+    context.fillRect(margin, margin, side, side);
+    context.imageSmoothingEnabled = false;
+    this.small ??= this.#smallPicture();
+    context.drawImage(this.small, margin, margin, side, side);
+    context.fillStyle = style.getPropertyValue('--line');
+    for (let k = 0; k < count; ++k) context.fillRect(margin + k * cell, margin + k * cell, cell, cell);
+    if (cell > 6) this.#gaps(context);
+    const ink = style.getPropertyValue('--ink');
+    for (const [row, column] of this.used) this.#frame(context, row, column, ink, cell > 8 ? 2 : 1);
+  }
+
+  /** One pixel a cell, which scales up at once where hundreds of thousands of cells would take seconds; clear without a score. */
+  #smallPicture() {
+    const canvas = h('canvas', {width: this.count, height: this.count});
+    const colours = Array.from({length: FULL_SCORE + 1}, (_, byte) => evenColour(byte / FULL_SCORE).map((c) => 255 * c));
+    const context = canvas.getContext('2d');
+    const picture = context.createImageData(this.count, this.count);
+    this.order.forEach((i, row) =>
+      this.order.forEach((j, column) => {
+        const byte = i === j ? NOT_COMPARED : this.#byte(i, j);
+        if (byte <= FULL_SCORE) picture.data.set([...colours[byte], 255], 4 * (row * this.count + column));
+      }),
+    );
+    context.putImageData(picture, 0, 0);
+    return canvas;
+  }
+
+  #gaps(context) {
+    const side = this.cell * this.count;
+    for (let k = 1; k <= this.count; ++k) {
+      context.clearRect(this.margin + k * this.cell - 1, this.margin, 1, side);
+      context.clearRect(this.margin, this.margin + k * this.cell - 1, side, 1);
     }
+  }
+
+  /** [row, column] of the joins that the assembly uses, on both sides of the diagonal. */
+  #usedCells() {
+    const places = [];
+    this.order.forEach((index, place) => (places[index] = place));
+    return this.data.pairs.filter((pair) => pair.used).flatMap(({a, b}) => [[places[a], places[b]], [places[b], places[a]]]);
   }
 
   #frame(context, row, column, colour, width) {

@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import {statSync} from 'node:fs';
 import {join} from 'node:path';
 import {after, before, test} from 'node:test';
+import {evenColour} from '../src/colours.js';
 import {drawn, openBrowser, openPage, pixels, settled} from './browser.mjs';
 
 const file = (name) => join(process.env.REJOIN_PAGES, `${name}.html`);
@@ -221,6 +222,32 @@ test('the matrix of a phone names its rows and columns', () =>
     },
     {width: 390, height: 844},
   ));
+
+test('cells of the matrix have the colours of the scores that the pointer reads there', () =>
+  on('hostile', async (page) => {
+    const canvas = page.locator('#matrix canvas');
+    await canvas.scrollIntoViewIfNeeded();
+    const {width, at} = await pixels(page, '#matrix canvas');
+    const count = await page.locator('.fragments li').count();
+    const cell = 28;
+    const first = width - cell * count;
+    const plain = {own: new Set(), none: new Set()};
+    let compared = 0;
+    for (let row = 0; row < count; ++row) {
+      for (let column = 0; column < count; ++column) {
+        const [x, y] = [first + cell * column + cell / 2, first + cell * row + cell / 2];
+        await canvas.hover({position: {x, y}});
+        const score = /score ([\d.]+)/.exec(await page.textContent('.readout'))?.[1];
+        const shown = at(x, y);
+        if (score === undefined) plain[row === column ? 'own' : 'none'].add(String(shown));
+        else assert.ok(evenColour(Number(score)).every((c, k) => Math.abs(255 * c - shown[k]) < 6), `${row} ${column}: ${shown} for ${score}`);
+        if (score !== undefined) ++compared;
+      }
+    }
+    assert.ok(compared > 0);
+    assert.equal(plain.own.size, 1);
+    assert.equal(plain.none.size, 1);
+  }));
 
 test('dark and light differ, and both keep their text legible', () =>
   on('hostile', async (page) => {
