@@ -54,6 +54,9 @@ std::vector<Tile> tiles_of(std::size_t fragments, const Shard& shard) {
       before += pairs;
     }
   }
+  std::stable_sort(tiles.begin(), tiles.end(), [](const Tile& x, const Tile& y) {
+    return x.b_first - x.a_first < y.b_first - y.a_first;
+  });
   return tiles;
 }
 

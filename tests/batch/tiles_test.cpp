@@ -61,6 +61,17 @@ TEST(Tiles, LargeShardsAreNearlyEqual) {
   }
 }
 
+TEST(Tiles, CloseFragmentsAreFirst) {
+  for (const Shard& shard : {Shard{1, 1}, Shard{2, 3}}) {
+    std::size_t farthest = 0;
+    for (const Tile& tile : tiles_of(1000, shard)) {
+      EXPECT_GE(tile.b_first - tile.a_first, farthest);
+      farthest = tile.b_first - tile.a_first;
+    }
+    EXPECT_GT(farthest, 300U);
+  }
+}
+
 TEST(Tiles, NoTileNeedsManyFragments) {
   for (const Tile& tile : tiles_of(1000, {1, 1})) EXPECT_LE(tile.fragments().size(), 96U);
 }
