@@ -8,6 +8,21 @@
 
 namespace rejoin::cli {
 
+std::string harmless(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) {
+    const bool steers = (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') || c == '\x7f';
+    if (steers) c = '?';
+  }
+  return result;
+}
+
+std::string harmless_line(std::string_view text) {
+  std::string result = harmless(text);
+  std::replace(result.begin(), result.end(), '\n', '?');
+  return result;
+}
+
 Console::Console() : terminal_(isatty(STDERR_FILENO) == 1) {}
 
 Console::~Console() {
@@ -17,19 +32,19 @@ Console::~Console() {
 void Console::result(std::string_view text) {
   end_progress();
   if (quiet) return;
-  fmt::print("{}", text);
+  fmt::print("{}", harmless(text));
   std::fflush(stdout);  // Ctrl-C during the pictures that follow must not lose it
 }
 
 void Console::warning(std::string_view text) {
   end_progress();
-  fmt::print(stderr, "rejoin: warning: {}\n", text);
+  fmt::print(stderr, "rejoin: warning: {}\n", harmless_line(text));
 }
 
 void Console::detail(std::string_view text) {
   if (!verbose) return;
   end_progress();
-  fmt::print(stderr, "{}\n", text);
+  fmt::print(stderr, "{}\n", harmless(text));
 }
 
 void Console::progress(std::string_view stage, double fraction) {
@@ -40,7 +55,7 @@ void Console::progress(std::string_view stage, double fraction) {
   const double share = std::clamp(fraction, 0.0, 1.0);
   const int full = static_cast<int>(share * kWidth);
   fmt::print(stderr, "\r\033[K[{:=<{}}{: <{}}] {:3.0f} % {}", "", full, "", kWidth - full, 100 * share,
-             stage);
+             harmless_line(stage));
   std::fflush(stderr);
   bar_drawn_ = true;
   last_drawn_ = now;

@@ -7,7 +7,13 @@
 
 namespace rejoin::cli {
 
-/// Results go to stdout, everything else to stderr.  Not thread-safe.
+/// Text for a terminal: control characters, which a file's name may hold and a terminal would obey, become '?'.  Line ends and tabs stay.
+std::string harmless(std::string_view text);
+
+/// The same for one line: line ends in it become '?', too.
+std::string harmless_line(std::string_view text);
+
+/// Results go to stdout, everything else to stderr; all of it harmless().  Not thread-safe.
 class Console {
  public:
   bool quiet = false;    ///< no results on stdout and no progress; warnings and errors stay

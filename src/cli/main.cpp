@@ -142,13 +142,13 @@ int explain(const CLI::App& root, const CLI::ParseError& error) {
   }
   const std::vector<std::string> words = root.remaining(true);
   std::string text = words.empty() ? error.what() : unexpected(words, *app, command);
-  for (char& c : text) c = c == '\n' ? ' ' : c;
-  fmt::print(stderr, "rejoin: {}; see {} --help\n", text, command);
+  std::replace(text.begin(), text.end(), '\n', ' ');  // CLI11 tells several things on several lines
+  fmt::print(stderr, "rejoin: {}; see {} --help\n", harmless(text), command);
   return kWrongUse;
 }
 
 int fail(const std::string& text, ExitCode code) {
-  fmt::print(stderr, "rejoin: {}\n", text);
+  fmt::print(stderr, "rejoin: {}\n", harmless_line(text));
   return code;
 }
 

@@ -51,6 +51,17 @@ void expect_failure(const Finished& finished, const std::string& names) {
   EXPECT_NE(finished.err.find(names), std::string::npos) << finished.err;
 }
 
+TEST(HostileName, NeitherSteersTheTerminalNorMakesLines) {
+  const TemporaryFolder folder;
+  const std::string name = folder / "a\033[2J\nrejoin: done\r.ply";
+  for (const std::string& content : {std::string(), kTetrahedron}) {
+    if (!content.empty()) write_file(name, content);
+    const Finished finished = run({"match", name, folder / "missing.ply"});
+    expect_failure(finished, content.empty() ? "a?[2J?rejoin: done?.ply" : "missing.ply");
+    for (const char c : {'\033', '\r'}) EXPECT_EQ(finished.err.find(c), std::string::npos) << finished.err;
+  }
+}
+
 TEST(CopiedFile, IsRefusedAsTheOtherFragment) {
   const TemporaryFolder folder;
   write_file(folder / "a.ply", kTetrahedron);
