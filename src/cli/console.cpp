@@ -11,8 +11,7 @@ namespace rejoin::cli {
 std::string harmless(std::string_view text) {
   std::string result(text);
   for (char& c : result) {
-    const bool steers = (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') || c == '\x7f';
-    if (steers) c = '?';
+    if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') c = '?';
   }
   return result;
 }
