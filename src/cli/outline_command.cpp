@@ -40,7 +40,7 @@ void add_outline_method(CLI::App& app, OutlineMethod& method) {
 void add_calibration(CLI::App& app, std::optional<std::string>& calibration) {
   app.add_option("--calibration", calibration, "numbers from outline calibrate, for multiscale")
       ->type_name("FILE")
-      ->group("Search");
+      ->group("Input");
 }
 
 void apply_calibration(const std::optional<std::string>& calibration, OutlineMethod method,

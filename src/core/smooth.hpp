@@ -1,6 +1,7 @@
 /// Smoothing of closed sequences.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -11,10 +12,11 @@ namespace rejoin {
 
 /// Convolution of a closed sequence of evenly spaced values (numbers, points) with a Gaussian that ends at 3.5 standard
 /// deviations.
-/// \param deviation  its standard deviation in samples; 0 changes nothing
+/// \param deviation  its standard deviation in samples; 0 changes nothing; as many as there are leave the mean (but for 3e-9), more are taken as so many
 template <typename Value>
 std::vector<Value> smooth(const std::vector<Value>& values, double deviation) {
   if (deviation <= 0.0 || values.empty()) return values;
+  deviation = std::min(deviation, static_cast<double>(values.size()));
   const auto reach = static_cast<std::ptrdiff_t>(std::ceil(3.5 * deviation));
   std::vector<double> weights(static_cast<std::size_t>(reach) + 1);
   double sum = 0.0;

@@ -39,18 +39,22 @@ TEST(CommandLine, OutputsThatWouldTakeWhatIsReadAreRefused) {
   const std::string scan = folder / "scan.ply";
   const std::string other = folder / "other.ply";
   const std::string piece = folder / "piece.csv";
-  for (const std::string& file : {scan, other, piece}) write_file(file, "precious");
-  const std::vector<std::vector<std::string>> commands{{"match", scan, other, "--json", other},
-                                                       {"facets", scan, "--ply", folder / "./scan.ply"},
-                                                       {"assemble", folder / ".", "--json", other},
-                                                       {"outline", "match", piece, other, "--json", piece},
-                                                       {"outline", "assemble", folder / "", "--json", piece}};
+  const std::string truth = folder / "truth.json";
+  for (const std::string& file : {scan, other, piece, truth}) write_file(file, "precious");
+  const std::vector<std::vector<std::string>> commands{
+      {"match", scan, other, "--json", other},
+      {"facets", scan, "--ply", folder / "./scan.ply"},
+      {"assemble", folder / ".", "--json", other},
+      {"outline", "match", piece, other, "--json", piece},
+      {"outline", "assemble", folder / "", "--json", piece},
+      {"outline", "calibrate", folder / "", "--json", truth},
+      {"outline", "match", piece, other, "--calibration", truth, "--json", truth}};
   for (const auto& command : commands) {
     const Finished finished = run(command);
     EXPECT_EQ(finished.exit_code, 2) << command[0];
     EXPECT_NE(finished.err.find("is read too and would be lost"), std::string::npos) << finished.err;
   }
-  for (const std::string& file : {scan, other, piece}) EXPECT_EQ(read_file(file), "precious") << file;
+  for (const std::string& file : {scan, other, piece, truth}) EXPECT_EQ(read_file(file), "precious") << file;
 }
 
 class WrongUseTest : public ::testing::TestWithParam<WrongUse> {};

@@ -65,6 +65,16 @@ TEST(Signal, EachScaleIsTwiceAsCoarseAndKnowsItsPlaces) {
   }
 }
 
+TEST(Signal, BorderFarBelowTheStepIsItsMean) {
+  constexpr double kSide = 1e-9;  // the whole kernel of such a step would take terabytes
+  Outline outline;
+  outline.points = {{0, 0}, {kSide, 0}, {kSide, kSide}, {0, kSide}};
+  for (const ScaleSignal& scale : scale_space(outline, {1.0, 2})) {
+    for (const glm::dvec2& point : scale.points)
+      EXPECT_LT(glm::distance(point, {0.5 * kSide, 0.5 * kSide}), 0.01 * kSide);
+  }
+}
+
 TEST(Signal, NothingDependsOnTheUnit) {
   Outline small;
   small.points = testing::broken_tile(200, 100, {}, 5).lower.points;
