@@ -29,7 +29,7 @@ std::string summary(const outline::Piece& a, const outline::Piece& b, const outl
   text += best.pose.flipped ? "pose (B turned over, B's coordinates to A's):\n"
                             : "pose (B's coordinates to A's):\n";
   for (int row = 0; row < 3; ++row)
-    text += fmt::format("  {:12.8f} {:12.8f} {:14.6g}\n", m[0][row], m[1][row], m[2][row]);
+    text += fmt::format("  {:12.8f} {:12.8f} {:16.10g}\n", m[0][row], m[1][row], m[2][row]);
   const outline::JoinAreas areas = outline::join_areas(a.outline, b.outline, best);
   return text +
          fmt::format(

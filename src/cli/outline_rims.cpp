@@ -45,7 +45,7 @@ std::string summary(const std::vector<rims::Proposal>& proposals) {
                                  proposals.size(), best.length);
   text += "pose (B's coordinates to A's):\n";
   for (int row = 0; row < 3; ++row) {
-    text += fmt::format("  {:12.8f} {:12.8f} {:12.8f} {:14.6g}\n", best.pose.rotation[0][row],
+    text += fmt::format("  {:12.8f} {:12.8f} {:12.8f} {:16.10g}\n", best.pose.rotation[0][row],
                         best.pose.rotation[1][row], best.pose.rotation[2][row], best.pose.translation[row]);
   }
   return text;

@@ -287,6 +287,31 @@ TEST(Extract, PicturesThatAreCutShortAreRefused) {
   }
 }
 
+TEST(Extract, SmallPictureInsideDoesNotEndAJpeg) {
+  const Folder folder;
+  const cv::Mat picture = painted(disc({128, 120}), {0.5, 0.6, 0.7}, {0, 0, 0}, 255, CV_8UC3);
+  std::vector<unsigned char> whole;
+  std::vector<unsigned char> small;
+  cv::imencode(".jpg", picture, whole);
+  cv::Mat tenth;
+  cv::resize(picture, tenth, {}, 0.1, 0.1);
+  cv::imencode(".jpg", tenth, small);
+  const std::size_t length = small.size() + 2;
+  std::vector<unsigned char> camera(whole.begin(), whole.begin() + 2);
+  camera.insert(camera.end(), {0xFF, 0xE1, static_cast<unsigned char>(length / 256),
+                               static_cast<unsigned char>(length % 256)});
+  camera.insert(camera.end(), small.begin(), small.end());
+  camera.insert(camera.end(), whole.begin() + 2, whole.end());
+  const auto write = [&](std::size_t kept) {
+    std::ofstream(folder.file("camera.jpg"), std::ios::binary)
+        .write(reinterpret_cast<const char*>(camera.data()), static_cast<std::streamsize>(kept));
+  };
+  write(camera.size());
+  EXPECT_NO_THROW(extract(folder.file("camera.jpg")));
+  write(camera.size() - whole.size() / 2);
+  expect_refusal(folder.file("camera.jpg"), "cut short");
+}
+
 TEST(Extract, HugeClaimIsRefusedBeforeDecoding) {
   const Folder folder;
   cv::imwrite(folder.file("disc.png"), with_alpha(disc({128, 120})));

@@ -80,9 +80,17 @@ std::optional<ImageHeader> jpeg_header(std::string_view bytes) {
 
 /// Whether a JPEG ends with the marker of its end.  libjpeg paints grey what is missing, which looks like a piece.
 bool jpeg_is_whole(std::string_view bytes) {
-  const std::size_t pixels =
-      bytes.find("\xFF\xDA");  // pictures within the picture come before, with ends of their own
-  return pixels != std::string_view::npos && bytes.find("\xFF\xD9", pixels) != std::string_view::npos;
+  std::size_t place = 2;
+  while (const auto marker = number_at(bytes, place, 2, true)) {
+    if (*marker == 0xFFDA) return bytes.find("\xFF\xD9", place) != std::string_view::npos;
+    if (*marker <= 0xFF00 || *marker == 0xFFFF) {  // bytes that libjpeg passes over
+      ++place;
+      continue;
+    }
+    // Over whole segments: a camera's small picture inside one has pixels and an end of its own.
+    place += 2 + std::max<std::size_t>(number_at(bytes, place + 2, 2, true).value_or(2), 2);
+  }
+  return false;
 }
 
 /// Two whole numbers, one over the other.
