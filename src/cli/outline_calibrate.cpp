@@ -3,12 +3,11 @@
 
 #include <filesystem>
 #include <optional>
-#include <system_error>
 
 #include "cli/arguments.hpp"
 #include "cli/outline_calibration.hpp"
 #include "cli/outline_command.hpp"
-#include "core/error.hpp"
+#include "cli/outputs.hpp"
 #include "core/files.hpp"
 
 namespace rejoin::cli {
@@ -38,10 +37,10 @@ class OutlineCalibrateCommand final : public Command {
 
   ExitCode run(Console& console, Context& context) override {
     const std::string path = joins_.value_or((std::filesystem::path(folder_) / "truth.json").string());
-    std::error_code absent;
-    if (json_ && std::filesystem::equivalent(*json_, path, absent))
-      throw UsageError(*json_, "is read too and would be lost", "give --json another file");
-    if (json_) require_writable_file(*json_);
+    if (json_) {
+      require_apart("--json", *json_, path);
+      require_writable_file(*json_);
+    }
     const outline::PieceSet set = load_folder(folder_, console);
     const std::vector<outline::KnownJoin> joins = read_known_joins(path, set.pieces);
     const std::vector<outline::CalibratedLevel> levels =

@@ -28,6 +28,11 @@ bool is_read_from_folders(const fs::path& file, const CLI::App& command) {
   return flat ? outline::has_piece_name(file.string()) : mesh::has_scan_name(file);
 }
 
+[[noreturn]] void refuse(const std::string& option, const fs::path& output) {
+  throw UsageError(output.string(), "is read too and would be lost",
+                   fmt::format("give {} another file", option));
+}
+
 /// Whether writing `output` takes something of `input`, a file or a folder.
 bool would_destroy(const fs::path& output, const fs::path& input, const CLI::App& command) {
   std::error_code ignored;
@@ -54,9 +59,7 @@ std::vector<std::string> values_of(const CLI::App& command, const std::string& g
 
 void require_file(const CLI::Option& option, const std::string& value, const CLI::App& command) {
   for (const std::string& input : values_of(command, "Input")) {
-    if (!would_destroy(value, input, command)) continue;
-    throw UsageError(value, "is read too and would be lost",
-                     fmt::format("give {} another file", option.get_name()));
+    if (would_destroy(value, input, command)) refuse(option.get_name(), value);
   }
 }
 
@@ -68,6 +71,11 @@ void require_folder(const CLI::Option& option, const std::string& value) {
 }
 
 }  // namespace
+
+void require_apart(const std::string& option, const fs::path& output, const fs::path& input) {
+  std::error_code ignored;
+  if (fs::is_regular_file(output, ignored) && is_same(output, input)) refuse(option, output);
+}
 
 void require_outputs_apart(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {

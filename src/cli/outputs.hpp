@@ -2,8 +2,16 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <filesystem>
+#include <string>
 
 namespace rejoin::cli {
+
+/// For what a command reads by default, which no option names.
+/// \param option  that names the output
+/// \throws UsageError both are the same file
+void require_apart(const std::string& option, const std::filesystem::path& output,
+                   const std::filesystem::path& input);
 
 /// Looks at the values of a parsed command's, and its commands', options in the groups "Input" and "Output".
 /// \throws UsageError an output is empty, is a file that is read too or a scan or piece in a folder that is read, or has the name of a file where a
