@@ -12,7 +12,8 @@ namespace rejoin {
 
 /// Convolution of a closed sequence of evenly spaced values (numbers, points) with a Gaussian that ends at 3.5 standard
 /// deviations.
-/// \param deviation  its standard deviation in samples; 0 changes nothing; as many as there are leave the mean (but for 3e-9), more are taken as so many
+/// \param deviation  its standard deviation in samples; 0 changes nothing, more than there are samples counts as their number, which
+///                   leaves hardly more than their mean
 template <typename Value>
 std::vector<Value> smooth(const std::vector<Value>& values, double deviation) {
   if (deviation <= 0.0 || values.empty()) return values;
