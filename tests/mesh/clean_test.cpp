@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.hpp"
 #include "core/random.hpp"
 #include "mesh/load.hpp"
 #include "mesh/save.hpp"
@@ -150,6 +151,42 @@ TEST(Clean, TurnsAClosedSurfaceThatIsInsideOut) {
   EXPECT_NE(loaded.warnings[0].find("inside out"), std::string::npos);
 }
 
+/// The faces of a sphere of radius 1 above a height, wound so that they are seen from its inside.
+Mesh inside_of_sphere(float above) {
+  Mesh sphere = test::icosphere(1, 3);
+  std::erase_if(sphere.faces, [&](const glm::uvec3& face) {
+    return std::min({sphere.vertices[face.x].z, sphere.vertices[face.y].z, sphere.vertices[face.z].z}) <
+           above;
+  });
+  for (glm::uvec3& face : sphere.faces) std::swap(face.y, face.z);
+  std::vector<std::uint32_t> number(sphere.vertices.size(), 0);
+  for (const glm::uvec3& face : sphere.faces) number[face.x] = number[face.y] = number[face.z] = 1;
+  Mesh used;
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    if (number[i] == 0) continue;
+    number[i] = static_cast<std::uint32_t>(used.vertices.size());
+    used.vertices.push_back(sphere.vertices[i]);
+  }
+  for (const glm::uvec3& face : sphere.faces)
+    used.faces.emplace_back(number[face.x], number[face.y], number[face.z]);
+  return used;
+}
+
+/// A tube of radius 1 about z, open at both ends, wound so that it is seen from its inside.
+Mesh tube_from_inside(float length) {
+  constexpr std::uint32_t kSides = 40;
+  Mesh tube;
+  for (std::uint32_t i = 0; i < kSides; ++i) {
+    const float turn = 6.2831853F * static_cast<float>(i) / kSides;
+    for (const float z : {0.0F, length}) tube.vertices.emplace_back(std::cos(turn), std::sin(turn), z);
+    const std::uint32_t a = 2 * i;
+    const std::uint32_t b = 2 * ((i + 1) % kSides);
+    tube.faces.emplace_back(a, a + 1, b);
+    tube.faces.emplace_back(a + 1, b + 1, b);
+  }
+  return tube;
+}
+
 TEST(Clean, KeepsTheWindingOfACavityAndOfAnOpenSurface) {
   Mesh hollow = test::icosphere(2, 2);
   Mesh hole = test::icosphere(1, 2);
@@ -160,12 +197,45 @@ TEST(Clean, KeepsTheWindingOfACavityAndOfAnOpenSurface) {
   const double before = test::volume(hollow);
   EXPECT_NEAR(test::volume(through_ply(hollow).mesh), before, 1e-4);
 
-  Mesh open = test::icosphere(1, 2);
-  for (glm::uvec3& face : open.faces) std::swap(face.y, face.z);
-  open.faces.pop_back();
-  const Loaded loaded = through_ply(open);
-  EXPECT_LT(test::volume(loaded.mesh), 0);
-  EXPECT_TRUE(loaded.warnings.empty());
+  // A vessel's inside scanned alone: its normals point into it, and it encloses a negative volume.
+  for (const Mesh& inside : {inside_of_sphere(0), tube_from_inside(2)}) {
+    const Loaded loaded = through_ply(inside);
+    EXPECT_EQ(loaded.mesh.faces, inside.faces);
+    EXPECT_TRUE(loaded.warnings.empty());
+  }
+}
+
+TEST(Clean, TurnsAnOpenSurfaceOfWhichOnlyTheBackCanBeSeen) {
+  Mesh sphere = inside_of_sphere(-0.9F);  // but for its lowest faces the whole sphere
+  const Loaded loaded = through_ply(sphere);
+  ASSERT_EQ(loaded.warnings.size(), 1U);
+  EXPECT_NE(loaded.warnings[0].find("inside out"), std::string::npos) << loaded.warnings[0];
+  EXPECT_GT(test::volume(loaded.mesh), 3.5);
+
+  // Not one of its faces shares a vertex with another.
+  Mesh soup;
+  Random random(8);
+  for (const glm::uvec3& face : sphere.faces) {
+    for (int k = 0; k < 3; ++k) {
+      const auto shift = [&] { return static_cast<float>(random.uniform(-1e-5, 1e-5)); };
+      soup.vertices.push_back(sphere.vertices[face[k]] + glm::vec3(shift(), shift(), shift()));
+    }
+    const auto v = static_cast<std::uint32_t>(soup.vertices.size());
+    soup.faces.emplace_back(v - 3, v - 2, v - 1);
+  }
+  EXPECT_GT(test::volume(through_ply(soup).mesh), 3.5);
+}
+
+TEST(Clean, DropsTheBacksOfASurfaceWithBothSides) {
+  const Mesh sphere = test::icosphere(1, 3);
+  Mesh both = sphere;
+  for (const glm::uvec3& face : sphere.faces) both.faces.emplace_back(face.x, face.z, face.y);
+  const Loaded loaded = through_ply(both);
+  EXPECT_EQ(loaded.mesh.faces, sphere.faces);
+  ASSERT_EQ(loaded.warnings.size(), 1U);
+  EXPECT_NE(loaded.warnings[0].find("dropped 1280 of 2560 faces that are the backs of others"),
+            std::string::npos)
+      << loaded.warnings[0];
 }
 
 TEST(Clean, LeavesAMoebiusStripAlone) {
@@ -240,6 +310,118 @@ TEST(Clean, EstimatesMissingNormalsOutwardsWithAWarning) {
   // Points whose neighbourhood folds round an edge of the box get a slanted normal.
   EXPECT_GT(close, truth.size() * 8 / 10);
   EXPECT_EQ(inwards, 0U);
+}
+
+/// Share of normals within 26 degrees of a sphere's about the origin, outwards.
+double outward_share(const Mesh& cloud) {
+  std::size_t outward = 0;
+  for (std::size_t i = 0; i < cloud.vertices.size(); ++i)
+    outward += glm::dot(cloud.normals[i], glm::normalize(cloud.vertices[i])) > 0.9F ? 1 : 0;
+  return static_cast<double>(outward) / static_cast<double>(cloud.vertices.size());
+}
+
+TEST(Clean, DropsStrayPointsBeforeItEstimatesNormals) {
+  const Mesh sphere = test::sphere_cloud(1, 0.06F, 9);
+  Mesh cloud = sphere;
+  cloud.normals.clear();
+  cloud.vertices.emplace_back(0, 0, 1.4F);  // the highest point is on no surface
+  for (int k = 0; k < 20; ++k)
+    cloud.vertices.emplace_back(0.02F * static_cast<float>(k), 3, 0);  // dust far away
+  for (int k = 0; k < 5; ++k) cloud.vertices.emplace_back(1.4F, 0, 0.01F * static_cast<float>(k));
+  const Loaded loaded = through_ply(cloud);
+  EXPECT_EQ(loaded.mesh.vertices, sphere.vertices);
+  EXPECT_GT(outward_share(loaded.mesh), 0.99);
+  ASSERT_EQ(loaded.warnings.size(), 2U);
+  EXPECT_NE(loaded.warnings[1].find("dropped 26 of"), std::string::npos) << loaded.warnings[1];
+}
+
+TEST(Clean, KeepsPointsOfUnevenDensity) {
+  // Half of the sphere has a ninth of the points.
+  const Mesh dense = test::sphere_cloud(1, 0.04F, 10);
+  Mesh cloud = test::sphere_cloud(1, 0.12F, 11);
+  std::erase_if(cloud.vertices, [](const glm::vec3& p) { return p.z > 0; });
+  for (const glm::vec3& p : dense.vertices) {
+    if (p.z > 0) cloud.vertices.push_back(p);
+  }
+  cloud.normals = cloud.vertices;
+  const Loaded loaded = through_ply(cloud);
+  EXPECT_EQ(loaded.mesh.vertices, cloud.vertices);
+  EXPECT_TRUE(loaded.warnings.empty());
+}
+
+TEST(Clean, TurnsNormalsOfACloudThatPointInwardsOrBothWays) {
+  const Mesh sphere = test::sphere_cloud(1, 0.06F, 12);
+  Random random(13);
+  const auto check = [&](const char* warning, const auto& turns) {
+    SCOPED_TRACE(warning);
+    Mesh cloud = sphere;
+    for (std::size_t i = 0; i < cloud.normals.size(); ++i) {
+      if (turns(i)) cloud.normals[i] = -cloud.normals[i];
+    }
+    const Loaded loaded = through_ply(cloud);
+    EXPECT_EQ(outward_share(loaded.mesh), 1.0);
+    ASSERT_EQ(loaded.warnings.size(), 1U);
+    EXPECT_NE(loaded.warnings[0].find(warning), std::string::npos) << loaded.warnings[0];
+  };
+  check("pointed inwards, turned all", [](std::size_t) { return true; });
+  check("inwards and outwards", [&](std::size_t) { return random.below(2) == 0; });
+  check("inwards and outwards", [&](std::size_t i) { return sphere.vertices[i].x > 0; });
+}
+
+TEST(Clean, KeepsNormalsOfACloudOfAVesselsInside) {
+  Mesh inside = test::sphere_cloud(1, 0.06F, 14);
+  std::erase_if(inside.vertices, [](const glm::vec3& p) { return p.z > 0.3F; });
+  inside.normals.clear();
+  for (const glm::vec3& p : inside.vertices) inside.normals.push_back(-p);
+  const Loaded loaded = through_ply(inside);
+  EXPECT_TRUE(loaded.warnings.empty());
+  EXPECT_EQ(outward_share(loaded.mesh), 0.0);
+}
+
+TEST(Clean, TellsFloatsTooFarFromTheOrigin) {
+  // Spheres of radius 1 with points 0.06 apart: at a million, floats have steps of 0.06; at a quarter, of 0.016.
+  const auto at = [](double x) {
+    Mesh sphere = test::sphere_cloud(1, 0.06F, 15);
+    std::string text = "ply\nformat binary_little_endian 1.0\nelement vertex " +
+                       std::to_string(sphere.vertices.size()) +
+                       "\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+    for (const glm::vec3& p : sphere.vertices)
+      text += test::raw(static_cast<float>(x + static_cast<double>(p.x))) + test::raw(p.y) + test::raw(p.z);
+    return load_text("a.ply", text).warnings;
+  };
+  EXPECT_EQ(at(25000).size(), 1U);  // only that there are no normals
+  const std::vector<std::string> warnings = at(250000);
+  ASSERT_EQ(warnings.size(), 2U);
+  EXPECT_NE(warnings[0].find("steps of 0.0156 so far from the origin"), std::string::npos) << warnings[0];
+  EXPECT_THROW(at(4e6), InputError);
+}
+
+TEST(Clean, KeepsPrecisionBesideAPointAtZero) {
+  // Some writers put points that they could not measure at zero.
+  for (const bool cloud : {false, true}) {
+    SCOPED_TRACE(cloud);
+    Mesh sphere = test::icosphere(1, 4);
+    sphere.normals = sphere.vertices;
+    if (cloud) sphere.faces.clear();
+    std::string text =
+        kPlyHeader +
+        vertices(sphere.vertices.size() + 1, "property float nx\nproperty float ny\nproperty float nz\n") +
+        faces(sphere.faces.size()) + "0 0 0 0 0 1\n";
+    const auto number = [](double value) { return std::to_string(value) + " "; };
+    for (const glm::vec3& p : sphere.vertices) {
+      text += number(4.5e6 + static_cast<double>(p.x)) + number(5.4e6 + static_cast<double>(p.y)) +
+              number(static_cast<double>(p.z)) + number(p.x) + number(p.y) + number(p.z) + "\n";
+    }
+    for (const glm::uvec3& f : sphere.faces)
+      text += "3 " + std::to_string(f.x + 1) + " " + std::to_string(f.y + 1) + " " + std::to_string(f.z + 1) +
+              "\n";
+    const Mesh mesh = load_text("a.ply", text).mesh;
+    ASSERT_EQ(mesh.vertices.size(), sphere.vertices.size());
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+      const glm::dvec3 at = glm::dvec3(mesh.vertices[i]) + mesh.origin - glm::dvec3(4.5e6, 5.4e6, 0);
+      EXPECT_LT(glm::distance(at, glm::dvec3(sphere.vertices[i])), 2e-6);
+    }
+  }
 }
 
 TEST(Clean, KeepsPrecisionFarFromTheOrigin) {

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/words.hpp"
+#include "mesh/detail/cloud_normals.hpp"
 #include "mesh/detail/orient.hpp"
 #include "mesh/detail/soup.hpp"
 #include "mesh/detail/specks.hpp"
@@ -68,16 +70,52 @@ void require_area(const Mesh& mesh, const std::string& name) {
       "remove parts far from the rest, or export the scan again");
 }
 
+/// Box of the bulk of the points: on each axis between the shares 0.02 and 0.98 of up to some 10,000 of them, so that a few
+/// points anywhere (a reader's zeros for missing ones) move no side of it far.
+std::pair<glm::dvec3, glm::dvec3> box_of_most(const std::vector<glm::dvec3>& points) {
+  constexpr std::size_t kSampled = 10000;
+  constexpr double kOutside = 0.02;
+  const std::size_t step = 1 + points.size() / kSampled;
+  glm::dvec3 low;
+  glm::dvec3 high;
+  std::vector<double> values;
+  for (int axis = 0; axis < 3; ++axis) {
+    values.clear();
+    for (std::size_t i = 0; i < points.size(); i += step) values.push_back(points[i][axis]);
+    const auto cut = static_cast<std::ptrdiff_t>(kOutside * static_cast<double>(values.size()));
+    std::nth_element(values.begin(), values.begin() + cut, values.end());
+    low[axis] = values[static_cast<std::size_t>(cut)];
+    std::nth_element(values.begin(), values.end() - 1 - cut, values.end());
+    high[axis] = *(values.end() - 1 - cut);
+  }
+  return {low, high};
+}
+
+/// Floats have wide steps far from the origin: tells where they come near the distance of the points, refuses where they exceed it.
+void check_steps(const Soup& soup, const std::string& name, std::vector<std::string>& warnings) {
+  constexpr double kTold = 0.1;
+  const auto is_float = [](const glm::dvec3& p) { return glm::dvec3(glm::vec3(p)) == p; };
+  if (!std::all_of(soup.points.begin(), soup.points.end(), is_float)) return;
+  const auto [low, high] = box_of_most(soup.points);
+  const glm::dvec3 furthest = glm::max(glm::abs(low), glm::abs(high));
+  const auto largest = static_cast<float>(std::max({furthest.x, furthest.y, furthest.z}));
+  const double step = static_cast<double>(std::nextafter(largest, 2 * largest) - largest);
+  const double apart = glm::length(high - low) / std::sqrt(static_cast<double>(soup.points.size()));
+  if (!(apart > 0) || step <= kTold * apart) return;
+  const std::string what = fmt::format(
+      "its coordinates are floats, which have steps of {:.3g} so far from the origin, and its points lie "
+      "some {:.3g} apart",
+      step, apart);
+  const std::string mend = "move the scan near the origin before it is exported, or export it with doubles";
+  if (step > apart) throw InputError(name, what, mend);
+  warnings.push_back(fmt::format("{}: {}; {}", name, what, mend));
+}
+
 /// The point that coordinates are stored relative to: zero for a scan near the origin, so that its floats
 /// stay as they are, else the box's centre on a coarse binary grid, so that subtracting it from float
 /// coordinates is exact.
 glm::dvec3 choose_origin(const std::vector<glm::dvec3>& points) {
-  glm::dvec3 low = points.front();
-  glm::dvec3 high = low;
-  for (const glm::dvec3& point : points) {
-    low = glm::min(low, point);
-    high = glm::max(high, point);
-  }
+  const auto [low, high] = box_of_most(points);
   const double size = glm::length(high - low);
   const glm::dvec3 furthest = glm::max(glm::abs(low), glm::abs(high));
   if (size <= 0 || std::max({furthest.x, furthest.y, furthest.z}) <= 4 * size) return glm::dvec3(0.0);
@@ -121,6 +159,10 @@ void clean_faces(Loaded& loaded, const std::string& name) {
   if (mesh.faces.empty()) {
     throw InputError(name, fmt::format("none of its {} faces has an area", before), "export the scan again");
   }
+  if (2 * dropped.degenerate > before) {
+    throw InputError(name, fmt::format("{} of its {} faces have no area", dropped.degenerate, before),
+                     "export the scan again, with more digits if its coordinates are large");
+  }
   if (dropped.degenerate > 0) {
     loaded.warnings.push_back(
         fmt::format("{}: dropped {} of {} faces that have no area", name, dropped.degenerate, before));
@@ -136,6 +178,12 @@ void clean_faces(Loaded& loaded, const std::string& name) {
                     name, specks.faces, before, counted(specks.parts, "small part")));
   }
   drop_unused_vertices(mesh);
+  if (const std::size_t backs = drop_backs(mesh); backs > 0) {
+    loaded.warnings.push_back(
+        fmt::format("{}: dropped {} of {} faces that are the backs of others", name, backs, before));
+  }
+  require_usual_size(mesh, name);
+  require_area(mesh, name);
   const Turned turned = orient_faces(mesh);
   if (turned.inconsistent > 0) {
     loaded.warnings.push_back(
@@ -192,12 +240,35 @@ void clean_cloud(Loaded& loaded, const std::string& name) {
     loaded.warnings.push_back(
         fmt::format("{}: dropped {} of {} points without a usable normal", name, dropped, count));
   }
+  if (const std::size_t strays = drop_stray_points(mesh); strays > 0) {
+    loaded.warnings.push_back(
+        fmt::format("{}: dropped {} of {} points that lie apart from the rest (remove strays in the scanning "
+                    "software)",
+                    name, strays, count));
+  }
   if (is_line(mesh.vertices)) {
     throw InputError(name, fmt::format("its {} distinct points span no area", count),
                      "export the scan again");
   }
-  if (mesh.normals.empty()) mesh.normals = estimate_normals(mesh.vertices);
+  require_usual_size(mesh, name);
+  if (mesh.normals.empty()) {
+    mesh.normals = estimate_normals(mesh.vertices);
+    normalize_all(mesh.normals);
+    return;
+  }
   normalize_all(mesh.normals);
+  switch (check_normals(mesh)) {
+    case NormalsFound::Good:
+      break;
+    case NormalsFound::InsideOut:
+      loaded.warnings.push_back(name + ": its normals pointed inwards, turned all of them");
+      break;
+    case NormalsFound::Mixed:
+      loaded.warnings.push_back(name +
+                                ": its normals pointed inwards and outwards, turned them to agree (export "
+                                "oriented normals for a surer result)");
+      break;
+  }
 }
 
 }  // namespace
@@ -206,6 +277,7 @@ Loaded clean(const Soup& soup, const std::string& name, Weld which) {
   check_points(soup, name);
   check_corners(soup, name);
   Loaded loaded;
+  check_steps(soup, name, loaded.warnings);
   loaded.mesh = to_mesh(soup);
   const bool cloud = soup.sizes.empty();
   if (!cloud && loaded.mesh.faces.empty()) {
@@ -218,8 +290,6 @@ Loaded clean(const Soup& soup, const std::string& name, Weld which) {
   } else {
     clean_faces(loaded, name);
   }
-  require_usual_size(loaded.mesh, name);
-  if (!cloud) require_area(loaded.mesh, name);
   return loaded;
 }
 

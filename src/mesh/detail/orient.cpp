@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "mesh/detail/outlook.hpp"
+
 namespace rejoin::mesh::detail {
 namespace {
 
@@ -154,7 +156,8 @@ Turned orient_faces(Mesh& mesh) {
   const Adjacency adjacency = adjacency_of(mesh);
   Turned turned;
   if (!adjacency.consistent) turned.inconsistent = Winder(mesh, adjacency).wind();
-  turned.inside_out = adjacency.closed && enclosed_volume(mesh) < 0;
+  // Of an open surface the volume is only a first guess: a bowl's inside alone has a negative one, too.
+  turned.inside_out = enclosed_volume(mesh) < 0 && (adjacency.closed || is_inside_out(outlook(mesh)));
   if (turned.inside_out) {
     for (glm::uvec3& face : mesh.faces) turn(face);
   }

@@ -9,12 +9,13 @@ namespace rejoin::mesh::detail {
 
 struct Turned {
   std::size_t inconsistent = 0;  ///< faces turned to agree with their neighbours
-  bool inside_out = false;  ///< all faces were turned, because the closed surface enclosed a negative volume
+  bool inside_out = false;       ///< all faces were turned
 };
 
 /// Winds faces as their neighbours across two-faced edges (of every connected part the larger area stays),
-/// then turns a closed surface outwards.  A surface that cannot be wound consistently (a Moebius strip) stays
-/// as it is.
+/// then turns a surface outwards: a closed one if it encloses a negative volume, an open one if next to nothing of its front can
+/// be seen (outlook.hpp).  A surface that cannot be wound consistently (a Moebius strip) stays as it is.
+/// \pre the mesh has an area
 Turned orient_faces(Mesh& mesh);
 
 }  // namespace rejoin::mesh::detail

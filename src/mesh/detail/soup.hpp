@@ -48,8 +48,4 @@ Soup read_drc(const Source& source);
 /// Checks, triangulates, welds and cleans (see load()).
 Loaded clean(const Soup& soup, const std::string& name, Weld which = Weld::Places);
 
-/// Unit normals from the neighbourhood of every point, turned outwards (Hoppe 1992: along a spanning tree of
-/// the most parallel neighbours, from the highest point of every part).
-std::vector<glm::vec3> estimate_normals(const std::vector<glm::vec3>& points);
-
 }  // namespace rejoin::mesh::detail

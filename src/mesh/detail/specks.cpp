@@ -7,46 +7,64 @@
 #include <vector>
 
 #include "core/components.hpp"
+#include "core/median.hpp"
+#include "core/parallel.hpp"
+#include "mesh/point_index.hpp"
 
 namespace rejoin::mesh::detail {
 namespace {
 
-constexpr double kSmall = 0.01;  // of the whole area
+constexpr double kSmall = 0.01;  // of the whole area, or of all points
 constexpr double kApart = 0.1;   // of the diagonal of the larger parts' box
+constexpr std::size_t kNeighbours = 12;
+constexpr float kSparse = 2.5F;  // times the reach that is usual among its neighbours
 
-/// Box and area of a part; of nothing at first.
+/// Box and weight of a part; of nothing at first.
 struct Part {
   glm::dvec3 low{std::numeric_limits<double>::infinity()};
   glm::dvec3 high{-std::numeric_limits<double>::infinity()};
-  double area = 0;
+  double weight = 0;  ///< area, or number of points
 
   void add(const Part& other) {
     low = glm::min(low, other.low);
     high = glm::max(high, other.high);
-    area += other.area;
+    weight += other.weight;
   }
   double distance(const Part& other) const {
     return glm::length(glm::max(glm::dvec3(0.0), glm::max(other.low - high, low - other.high)));
   }
 };
 
-/// Number of the part of every face, from 0 in the order of their first faces.
+/// Numbers parts from 0 in the order in which their elements are asked for.
+class PartNumbers {
+ public:
+  explicit PartNumbers(Components& components, std::size_t elements)
+      : components_(components), number_(elements, kNone) {}
+
+  std::uint32_t of(std::uint32_t element) {
+    std::uint32_t& part = number_[components_.of(element)];
+    if (part == kNone) part = count_++;
+    return part;
+  }
+  std::size_t count() const { return count_; }
+
+ private:
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  Components& components_;
+  std::vector<std::uint32_t> number_;
+  std::uint32_t count_ = 0;
+};
+
 std::vector<std::uint32_t> part_of_faces(const Mesh& mesh) {
   Components components(mesh.vertices.size());
   for (const glm::uvec3& face : mesh.faces) {
     components.unite(face.x, face.y);
     components.unite(face.x, face.z);
   }
-  constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> number(mesh.vertices.size(), kNone);
+  PartNumbers numbers(components, mesh.vertices.size());
   std::vector<std::uint32_t> result;
   result.reserve(mesh.faces.size());
-  std::uint32_t count = 0;
-  for (const glm::uvec3& face : mesh.faces) {
-    std::uint32_t& part = number[components.of(face.x)];
-    if (part == kNone) part = count++;
-    result.push_back(part);
-  }
+  for (const glm::uvec3& face : mesh.faces) result.push_back(numbers.of(face.x));
   return result;
 }
 
@@ -65,19 +83,19 @@ std::vector<Part> measured(const Mesh& mesh, const std::vector<std::uint32_t>& p
 
 /// Which parts are specks.
 std::vector<bool> specks_among(const std::vector<Part>& parts) {
-  double area = 0;
-  for (const Part& part : parts) area += part.area;
+  double all = 0;
+  for (const Part& part : parts) all += part.weight;
   Part kept;
   std::vector<std::size_t> small;
   for (std::size_t k = 0; k < parts.size(); ++k) {
-    if (parts[k].area >= kSmall * area) {
+    if (parts[k].weight >= kSmall * all) {
       kept.add(parts[k]);
     } else {
       small.push_back(k);
     }
   }
   std::vector<bool> result(parts.size(), false);
-  if (!(kept.area > 0)) return result;
+  if (!(kept.weight > 0)) return result;
   const double apart = kApart * glm::distance(kept.low, kept.high);
   // From near to far: what lies near a patch that is kept is kept, too.
   std::vector<std::pair<double, std::size_t>> order;
@@ -89,6 +107,55 @@ std::vector<bool> specks_among(const std::vector<Part>& parts) {
     if (!result[k]) kept.add(parts[k]);
   }
   return result;
+}
+
+/// The nearest others of every point of a cloud.
+struct Surroundings {
+  std::vector<std::vector<std::uint32_t>> near;  ///< nearest first
+  std::vector<float> reach;                      ///< distance of the furthest of them
+};
+
+Surroundings surroundings_of(const std::vector<glm::vec3>& points) {
+  const PointIndex index(points);
+  Surroundings result{std::vector<std::vector<std::uint32_t>>(points.size()),
+                      std::vector<float>(points.size())};
+  parallel_for(points.size(), 512, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      std::vector<std::uint32_t>& near = result.near[i];
+      index.nearest(points[i], kNeighbours + 1, near);
+      std::erase(near, static_cast<std::uint32_t>(i));
+      result.reach[i] = glm::distance(points[i], points[near.back()]);
+    }
+  });
+  return result;
+}
+
+/// What is usual among every point's neighbours.
+std::vector<float> usual_reach(const Surroundings& around) {
+  std::vector<float> usual(around.reach.size());
+  parallel_for(usual.size(), 512, [&](std::size_t first, std::size_t last) {
+    std::vector<float> reaches;
+    for (std::size_t i = first; i < last; ++i) {
+      reaches.clear();
+      for (const std::uint32_t k : around.near[i]) reaches.push_back(around.reach[k]);
+      usual[i] = median(reaches);
+    }
+  });
+  return usual;
+}
+
+void drop_points(Mesh& cloud, const std::vector<bool>& dropped) {
+  const auto keep = [&](auto& values) {
+    if (values.empty()) return;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < dropped.size(); ++i) {
+      if (!dropped[i]) values[kept++] = values[i];
+    }
+    values.resize(kept);
+  };
+  keep(cloud.vertices);
+  keep(cloud.normals);
+  keep(cloud.colours);
 }
 
 }  // namespace
@@ -107,6 +174,36 @@ Specks drop_specks(Mesh& mesh) {
   specks.faces = mesh.faces.size() - kept;
   mesh.faces.resize(kept);
   return specks;
+}
+
+std::size_t drop_stray_points(Mesh& cloud) {
+  const std::size_t count = cloud.vertices.size();
+  if (count <= 4 * kNeighbours) return 0;
+  const Surroundings around = surroundings_of(cloud.vertices);
+  const std::vector<float> usual = usual_reach(around);
+  std::vector<bool> dropped(count);
+  for (std::size_t i = 0; i < count; ++i) dropped[i] = around.reach[i] > kSparse * usual[i];
+
+  Components components(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    for (const std::uint32_t k : around.near[i]) {
+      const float step = glm::distance(cloud.vertices[i], cloud.vertices[k]);
+      if (!dropped[i] && !dropped[k] && step <= kSparse * usual[i]) components.unite(i, k);
+    }
+  }
+  PartNumbers numbers(components, count);
+  std::vector<Part> parts;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint32_t part = numbers.of(i);
+    if (part == parts.size()) parts.emplace_back();
+    const glm::dvec3 point(cloud.vertices[i]);
+    if (!dropped[i]) parts[part].add({point, point, 1.0});
+  }
+  const std::vector<bool> specks = specks_among(parts);
+  for (std::uint32_t i = 0; i < count; ++i) dropped[i] = dropped[i] || specks[numbers.of(i)];
+  const auto strays = static_cast<std::size_t>(std::count(dropped.begin(), dropped.end(), true));
+  if (strays > 0) drop_points(cloud, dropped);
+  return strays;
 }
 
 }  // namespace rejoin::mesh::detail

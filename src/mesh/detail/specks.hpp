@@ -1,4 +1,4 @@
-/// Dust and stray faces that a scanner leaves far from the piece.
+/// Dust, stray faces and points that a scanner leaves far from the piece.
 #pragma once
 
 #include <cstddef>
@@ -17,5 +17,11 @@ struct Specks {
 /// no larger part, and patches near each other, stay.  Call drop_unused_vertices() after it.
 /// \pre no face is degenerate
 Specks drop_specks(Mesh& mesh);
+
+/// Drops the points of a cloud that belong to no surface: those with an emptier neighbourhood than their neighbours have
+/// (by more than 2.5; after the local outlier factor, Breunig et al. 2000), and small groups far from the rest as drop_specks()
+/// does (less than 1 % of the points).
+/// \return how many
+std::size_t drop_stray_points(Mesh& cloud);
 
 }  // namespace rejoin::mesh::detail

@@ -1,9 +1,11 @@
 #include "mesh/detail/weld.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 namespace rejoin::mesh::detail {
 namespace {
@@ -117,6 +119,23 @@ Dropped drop_useless_faces(Mesh& mesh) {
   }
   mesh.faces.resize(kept);
   return dropped;
+}
+
+std::size_t drop_backs(Mesh& mesh) {
+  if (mesh.faces.size() <= 3 * mesh.vertices.size()) return 0;
+  FirstSeen seen(mesh.faces.size());
+  std::vector<glm::uvec3> fronts;
+  for (const glm::uvec3& face : mesh.faces) {
+    std::array<std::uint32_t, 3> corners{face.x, face.y, face.z};
+    std::sort(corners.begin(), corners.end());
+    const std::size_t before = seen.size();
+    seen.number({corners[0], corners[1], corners[2]});
+    if (seen.size() != before) fronts.push_back(face);
+  }
+  const std::size_t backs = mesh.faces.size() - fronts.size();
+  if (4 * backs < mesh.faces.size()) return 0;
+  mesh.faces = std::move(fronts);
+  return backs;
 }
 
 void drop_unused_vertices(Mesh& mesh) {

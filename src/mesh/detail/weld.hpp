@@ -21,6 +21,11 @@ struct Dropped {
 /// Drops degenerate and duplicate faces; the order of the rest stays.
 Dropped drop_useless_faces(Mesh& mesh);
 
+/// Of a surface most of whose faces are there in both senses, as renderers that show front sides alone want it, drops the later
+/// one of both; leaves others alone, where a few such pairs are folds.
+/// \return how many
+std::size_t drop_backs(Mesh& mesh);
+
 /// Drops vertices that no face uses.  \pre the mesh has faces
 void drop_unused_vertices(Mesh& mesh);
 

@@ -1,0 +1,31 @@
+/// Normals of clouds: where there are none, and where they point the wrong way.
+#pragma once
+
+#include <cstddef>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace rejoin::mesh::detail {
+
+/// Unit normals from the neighbourhood of every point, turned outwards (turn_outwards()).
+std::vector<glm::vec3> estimate_normals(const std::vector<glm::vec3>& points);
+
+/// Turns normals to agree with their neighbours' along a spanning tree of the most parallel ones (Hoppe 1992), and every
+/// part so that its furthest points in all directions, which are on its outside whatever its shape, have outward normals.
+void turn_outwards(const std::vector<glm::vec3>& points, std::vector<glm::vec3>& normals);
+
+/// What check_normals() did.
+enum class NormalsFound {
+  Good,       ///< kept
+  InsideOut,  ///< all turned
+  Mixed,      ///< pointed this way and that: turned to agree
+};
+
+/// Turns the normals that a cloud came with where the surface through it can be seen from its front only after that (outlook()).
+/// What is scanned from one side is kept as it is.
+/// \pre unit normals
+NormalsFound check_normals(Mesh& cloud);
+
+}  // namespace rejoin::mesh::detail
