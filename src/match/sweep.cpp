@@ -12,12 +12,13 @@ namespace rejoin::match {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kAcross = 5.0;      // pixels across a strip, at least
-constexpr double kSide = 18.0;       // pixels in the root of a facet's area, at least
-constexpr double kElongated = 3.0;   // length over mean width from which a facet is a strip
-constexpr double kStripTurn = 0.4;   // strips lie along each other within 23 degrees
-constexpr double kFinest = 0.7;      // of the scans' resolution: below it there is nothing to see
-constexpr double kCoarse = 1.6;      // pixels of a first look at plates against those of the second,
+constexpr double kAcross = 5.0;     // pixels across a strip, at least
+constexpr double kSide = 18.0;      // pixels in the root of a facet's area, at least
+constexpr double kMost = 512.0;     // pixels in the root of the larger map, at most: else maps take gigabytes
+constexpr double kElongated = 3.0;  // length over mean width from which a facet is a strip
+constexpr double kStripTurn = 0.4;  // strips lie along each other within 23 degrees
+constexpr double kFinest = 0.7;     // of the scans' resolution: below it there is nothing to see
+constexpr double kCoarse = 1.6;     // pixels of a first look at plates against those of the second,
 constexpr double kWorthALook = 1.3;  // and at least: looks with hardly larger pixels save nothing
 constexpr double kTurnsKept = 0.15;  // share of a first look's turns that get a second
 constexpr std::size_t kLeastTurns = 3;
@@ -37,8 +38,9 @@ bool are_strips(const FacetPatch& a, const FacetPatch& b) {
 
 /// Pixel size of the maps, mesh units.
 double pitch_for(const FacetPatch& a, const FacetPatch& b) {
-  const double pitch = std::sqrt(std::min(a.area, b.area)) / kSide;
-  return are_strips(a, b) ? std::min(pitch, std::min(mean_width(a), mean_width(b)) / kAcross) : pitch;
+  double pitch = std::sqrt(std::min(a.area, b.area)) / kSide;
+  if (are_strips(a, b)) pitch = std::min(pitch, std::min(mean_width(a), mean_width(b)) / kAcross);
+  return std::max(pitch, std::sqrt(std::max(a.length * a.width, b.length * b.width)) / kMost);
 }
 
 std::vector<double> turns_for(const FacetPatch& a, const FacetPatch& b, double step) {

@@ -53,6 +53,28 @@ TEST(Sweep, AWavyCutComesFirst) {
   EXPECT_LT(turn_between(swept.hits.front(), pair.truth), 4.0);
 }
 
+// A table scanned with one of the pieces: maps of it with pixels that suit the other piece would take gigabytes.
+TEST(Sweep, ItsCostHasALimitHoweverUnlikeTheSizesAre) {
+  const Fragment small = gentle_half(true);
+  const auto evaluations = [&](float times) {
+    mesh::Mesh half = half_block(false, 64);
+    constexpr std::uint32_t kCells = 40;
+    const auto first = static_cast<std::uint32_t>(half.vertices.size());
+    const auto at = [&](std::uint32_t i) { return times * (2.0F * static_cast<float>(i) / kCells - 1.0F); };
+    for (std::uint32_t i = 0; i <= kCells; ++i) {
+      for (std::uint32_t j = 0; j <= kCells; ++j) {
+        half.vertices.push_back(static_cast<float>(kHalfZ) * glm::vec3(at(i), at(j), -2));
+        if (i == kCells || j == kCells) continue;
+        const std::uint32_t v = first + i * (kCells + 1) + j;
+        half.faces.emplace_back(v, v + kCells + 1, v + 1);
+        half.faces.emplace_back(v + 1, v + kCells + 1, v + kCells + 2);
+      }
+    }
+    return sweep(small, prepare("large", half, Context{}), {}, Context{}).evaluations;
+  };
+  EXPECT_LT(evaluations(100), 2 * evaluations(50));
+}
+
 TEST(Sweep, NoMorePosesThanAskedForBestFirst) {
   const auto pair = make_pair(5);
   SweepOptions options;

@@ -171,11 +171,18 @@ void clean_faces(Loaded& loaded, const std::string& name) {
     loaded.warnings.push_back(
         fmt::format("{}: dropped {} of {} faces that are there twice", name, dropped.duplicate, before));
   }
-  if (const Specks specks = drop_specks(mesh); specks.parts > 0) {
+  const Specks specks = drop_specks(mesh);
+  if (specks.parts > 0) {
     loaded.warnings.push_back(
         fmt::format("{}: dropped {} of {} faces, in {} far from the rest (remove specks in the scanning "
                     "software)",
                     name, specks.faces, before, counted(specks.parts, "small part")));
+  }
+  if (specks.table) {
+    loaded.warnings.push_back(
+        name +
+        ": a large part of it is a plane, as a table that was scanned with the piece is; such a "
+        "part hides the breaks: remove it in the scanning software");
   }
   drop_unused_vertices(mesh);
   if (const std::size_t backs = drop_backs(mesh); backs > 0) {

@@ -16,6 +16,8 @@ namespace {
 
 constexpr double kSmall = 0.01;  // of the whole area, or of all points
 constexpr double kApart = 0.1;   // of the diagonal of the larger parts' box
+constexpr double kTable = 0.3;   // of the whole area, at least
+constexpr double kFlat = 0.995;  // of a part's area that is left of it when looked at from the front
 constexpr std::size_t kNeighbours = 12;
 constexpr float kSparse = 2.5F;  // times the reach that is usual among its neighbours
 
@@ -23,12 +25,14 @@ constexpr float kSparse = 2.5F;  // times the reach that is usual among its neig
 struct Part {
   glm::dvec3 low{std::numeric_limits<double>::infinity()};
   glm::dvec3 high{-std::numeric_limits<double>::infinity()};
-  double weight = 0;  ///< area, or number of points
+  double weight = 0;       ///< area, or number of points
+  glm::dvec3 facing{0.0};  ///< its faces' area vectors
 
   void add(const Part& other) {
     low = glm::min(low, other.low);
     high = glm::max(high, other.high);
     weight += other.weight;
+    facing += other.facing;
   }
   double distance(const Part& other) const {
     return glm::length(glm::max(glm::dvec3(0.0), glm::max(other.low - high, low - other.high)));
@@ -75,8 +79,9 @@ std::vector<Part> measured(const Mesh& mesh, const std::vector<std::uint32_t>& p
     const glm::dvec3 a(mesh.vertices[face.x]);
     const glm::dvec3 b(mesh.vertices[face.y]);
     const glm::dvec3 c(mesh.vertices[face.z]);
-    parts[part_of_face[f]].add({glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)),
-                                0.5 * glm::length(glm::cross(b - a, c - a))});
+    const glm::dvec3 facing = 0.5 * glm::cross(b - a, c - a);
+    parts[part_of_face[f]].add(
+        {glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)), glm::length(facing), facing});
   }
   return parts;
 }
@@ -107,6 +112,12 @@ std::vector<bool> specks_among(const std::vector<Part>& parts) {
     if (!result[k]) kept.add(parts[k]);
   }
   return result;
+}
+
+/// Whether a part is a plane that takes up much of the whole, beside others.
+bool is_table(const Part& part, double all) {
+  return part.weight > kTable * all && part.weight < (1.0 - kSmall) * all &&
+         glm::length(part.facing) > kFlat * part.weight;
 }
 
 /// The nearest others of every point of a cloud.
@@ -165,6 +176,10 @@ Specks drop_specks(Mesh& mesh) {
   const std::vector<Part> parts = measured(mesh, part_of_face);
   const std::vector<bool> dropped = specks_among(parts);
   Specks specks;
+  double all = 0;
+  for (const Part& part : parts) all += part.weight;
+  specks.table =
+      std::any_of(parts.begin(), parts.end(), [&](const Part& part) { return is_table(part, all); });
   specks.parts = static_cast<std::size_t>(std::count(dropped.begin(), dropped.end(), true));
   if (specks.parts == 0) return specks;
   std::size_t kept = 0;
@@ -197,7 +212,7 @@ std::size_t drop_stray_points(Mesh& cloud) {
     const std::uint32_t part = numbers.of(i);
     if (part == parts.size()) parts.emplace_back();
     const glm::dvec3 point(cloud.vertices[i]);
-    if (!dropped[i]) parts[part].add({point, point, 1.0});
+    if (!dropped[i]) parts[part].add({point, point, 1.0, {}});
   }
   const std::vector<bool> specks = specks_among(parts);
   for (std::uint32_t i = 0; i < count; ++i) dropped[i] = dropped[i] || specks[numbers.of(i)];
