@@ -297,16 +297,51 @@ TEST(Stl, WeldsTheRepeatedVerticesOfABinaryFileEvenIfItStartsWithSolid) {
   }
 }
 
+const std::string kTextStl =
+    "solid a name\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   vertex 1 0 0\n   vertex 0 1 0\n"
+    "  endloop\n endfacet\n facet normal 0 0 1\n  outer loop\n   vertex 1 0 0\n   vertex 1 1 0\n"
+    "   vertex 0 1 0\n  endloop\n endfacet\nendsolid a name\n";
+
+std::string in_capitals(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c; });
+  return text;
+}
+
+/// With each line end as `end`.
+std::string with_line_ends(const std::string& text, const std::string& end) {
+  std::string result;
+  for (const char c : text) c == '\n' ? result += end : result += c;
+  return result;
+}
+
 TEST(Stl, ReadsText) {
   const TemporaryFolder folder;
-  const auto path = folder.write(
-      "a.stl",
-      "solid a name\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   vertex 1 0 0\n   vertex 0 1 0\n"
-      "  endloop\n endfacet\n facet normal 0 0 1\n  outer loop\n   vertex 1 0 0\n   vertex 1 1 0\n"
-      "   vertex 0 1 0\n  endloop\n endfacet\nendsolid a name\n");
-  const Mesh mesh = load(path).mesh;
-  EXPECT_EQ(mesh.vertices.size(), 4U);
-  EXPECT_NEAR(surface_area(mesh), 1, 1e-6);
+  for (const std::string& text :
+       {kTextStl, "\xEF\xBB\xBF" + kTextStl, "\n  " + kTextStl, in_capitals(kTextStl),
+        with_line_ends(kTextStl, "\r"), with_line_ends(kTextStl, "\r\n")}) {
+    SCOPED_TRACE(text);
+    const Mesh mesh = load(folder.write("a.stl", text)).mesh;
+    EXPECT_EQ(mesh.vertices.size(), 4U);
+    EXPECT_NEAR(surface_area(mesh), 1, 1e-6);
+  }
+}
+
+TEST(Obj, ReadsTextOfAnySystem) {
+  const TemporaryFolder folder;
+  const std::string text = "v 0 0 0\nv 1 0 0\nv 1 2 0\nf 1 2 3\n";
+  for (const std::string& written :
+       {"\xEF\xBB\xBF" + text, with_line_ends(text, "\r"), with_line_ends(text, "\r\n")}) {
+    SCOPED_TRACE(written);
+    EXPECT_NEAR(surface_area(load(folder.write("a.obj", written)).mesh), 1, 1e-6);
+  }
+  // Errors count lines as editors do.
+  try {
+    load(folder.write("a.obj", with_line_ends(text + "f 1 2 9\n", "\r\n")));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("line 5:"), std::string::npos) << error.what();
+  }
 }
 
 std::string base64(const std::string& bytes) {

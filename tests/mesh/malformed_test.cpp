@@ -62,7 +62,8 @@ TEST_F(Malformed, EmptyFile) {
 TEST_F(Malformed, TextThatIsNotAMesh) {
   const std::string text = "Dear colleague,\nthe scans are in the other folder.\n";
   expect("a.ply", text, Kind::Input, "is not a PLY file");
-  expect("a.obj", text, Kind::Input, "has no vertices");
+  expect("a.obj", text, Kind::Input, "line 1: unexpected \"Dear\"");
+  expect("b.obj", "# a scene without a mesh\no empty\n", Kind::Input, "has no vertices");
   expect("a.stl", text, Kind::Input, "is not an STL file");
   expect("a.off", text, Kind::Input, "is not a three-dimensional OFF file");
   expect("a.glb", text, Kind::Input, "is not a glTF file");
@@ -201,6 +202,16 @@ TEST_F(Malformed, IndicesOutOfRange) {
              "0 1 3\n",
          Kind::Input, "face 0 refers to a vertex");
   expect("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n", Kind::Input, "face 0 refers to a vertex");
+}
+
+// Behind a vertex that is skipped, faces would take wrong ones.
+TEST_F(Malformed, WordsOfNoMeaningInAnObjFile) {
+  expect("a.obj", "v 0 0 0\nV 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n", Kind::Input, "line 2: unexpected \"V\"");
+}
+
+TEST_F(Malformed, TextInUtf16) {
+  expect("a.obj", std::string("\xFF\xFEv\0 \0", 6), Kind::Input, "is text in UTF-16; save it as UTF-8");
+  expect("a.off", std::string("\xFE\xFF\0O\0F", 6), Kind::Input, "is text in UTF-16; save it as UTF-8");
 }
 
 TEST_F(Malformed, NoArea) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "mesh/detail/colour.hpp"
@@ -10,6 +11,15 @@
 
 namespace rejoin::mesh::detail {
 namespace {
+
+/// Keywords of the format that say nothing of the surface (Wavefront, Appendix B1 and its superseded statements).  Any other word
+/// is damage: behind a vertex that is skipped, faces would take wrong ones.
+constexpr auto kSkipped = std::to_array<std::string_view>(
+    {"vt",     "vp",     "deg",    "bmat",       "step",      "cstype",   "p",        "l",    "curv",
+     "curv2",  "surf",   "parm",   "trim",       "hole",      "scrv",     "sp",       "end",  "con",
+     "g",      "s",      "mg",     "o",          "bevel",     "c_interp", "d_interp", "lod",  "maplib",
+     "usemap", "usemtl", "mtllib", "shadow_obj", "trace_obj", "ctech",    "stech",    "call", "csh",
+     "bsp",    "bzp",    "cdc",    "cdp",        "res"});
 
 class ObjReader {
  public:
@@ -22,8 +32,10 @@ class ObjReader {
         read_vertex();
       } else if (keyword == "vn") {
         normals_.emplace_back(lines_.next_triple());
-      } else if (keyword == "f") {
+      } else if (keyword == "f" || keyword == "fo") {
         read_face();
+      } else if (std::find(kSkipped.begin(), kSkipped.end(), keyword) == kSkipped.end()) {
+        lines_.fail(fmt::format("unexpected \"{}\"", keyword.substr(0, 20)));
       }
     }
     check_corners();

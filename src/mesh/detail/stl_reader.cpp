@@ -1,9 +1,13 @@
 // A reader of its own: OpenMesh's merges vertices within an absolute tolerance, which depends on the scale.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cctype>
 #include <cstring>
+#include <string>
+#include <string_view>
 
 #include "core/error.hpp"
 #include "mesh/detail/text.hpp"
@@ -22,15 +26,31 @@ std::uint64_t promised_triangles(const std::string& bytes) {
   return count;
 }
 
+/// A word of the format, which writers put in capitals or not.
+std::string lower(std::string_view word) {
+  std::string result(word);
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return result;
+}
+
+/// Behind a byte order mark and blank lines, if any.
 bool starts_as_text(const std::string& bytes) {
-  return bytes.starts_with("solid");
+  const std::string_view text(bytes);
+  const std::size_t first = text.find_first_not_of("\xEF\xBB\xBF \t\r\n");
+  return first != std::string_view::npos && lower(text.substr(first, 5)) == "solid";
+}
+
+/// Whether a text names facets near its start.
+bool has_facets(const std::string& bytes) {
+  return lower(std::string_view(bytes).substr(0, 4096)).find("facet") != std::string::npos;
 }
 
 /// The word "solid" starts many binary files too: the length tells.
 bool is_binary(const std::string& bytes) {
   if (bytes.size() < kHeader) return false;
   if (bytes.size() == kHeader + kRecord * promised_triangles(bytes)) return true;
-  return !starts_as_text(bytes) || bytes.find("facet") == std::string::npos;
+  return !starts_as_text(bytes) || !has_facets(bytes);
 }
 
 Soup read_binary(const Source& source) {
@@ -59,7 +79,7 @@ Soup read_text(const Source& source) {
   std::uint32_t size = 0;
   bool ended = false;
   while (lines.next_line()) {
-    const std::string_view keyword = lines.next_word();
+    const std::string keyword = lower(lines.next_word());
     ended = keyword == "endsolid";
     if (keyword == "vertex") {
       soup.corners.push_back(static_cast<std::uint32_t>(soup.points.size()));

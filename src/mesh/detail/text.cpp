@@ -58,12 +58,20 @@ std::optional<long long> to_integer(std::string_view word) {
   return parse<long long>(word);
 }
 
+TextLines::TextLines(const Source& source) : source_(source), rest_(source.bytes) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
+  if (rest_.starts_with("\xFF\xFE") || rest_.starts_with("\xFE\xFF"))
+    throw InputError(source.name, "is text in UTF-16", "save it as UTF-8");
+}
+
 bool TextLines::next_line() {
   joined_.clear();
   while (!rest_.empty()) {
-    const std::size_t end = rest_.find('\n');
+    const std::size_t end = std::min(rest_.find_first_of("\n\r"), rest_.size());
     std::string_view line = rest_.substr(0, end);
-    rest_ = end == std::string_view::npos ? std::string_view{} : rest_.substr(end + 1);
+    rest_.remove_prefix(end);
+    rest_.remove_prefix(rest_.starts_with("\r\n") ? 2 : std::min<std::size_t>(1, rest_.size()));
     ++number_;
     line = trimmed(line.substr(0, line.find('#')));
     if (line.ends_with('\\')) {

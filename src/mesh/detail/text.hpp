@@ -9,10 +9,11 @@
 
 namespace rejoin::mesh::detail {
 
-/// Walks over the lines of a text and over the words of each.
+/// Walks over the lines of a text and over the words of each.  Lines end as on any system; a byte order mark is skipped.
 class TextLines {
  public:
-  explicit TextLines(const Source& source) : source_(source), rest_(source.bytes) {}
+  /// \throws InputError the text is UTF-16
+  explicit TextLines(const Source& source);
 
   /// Goes to the next line that has a word before its "#" comment; false at the end.  A backslash at the end
   /// of a line joins it with the next.
