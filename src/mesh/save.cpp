@@ -43,10 +43,19 @@ detail::Soup merged(const std::vector<Placed>& parts) {
   return soup;
 }
 
+/// The parts with the first one's origin at zero if that is far away: viewers place the nodes of a GLB by floats, in which parts
+/// would part.
+std::vector<Placed> near_the_origin(std::vector<Placed> parts) {
+  const glm::dvec3 first = parts.front().pose(parts.front().mesh->origin);
+  if (glm::length(first) <= kFarFromOrigin * diameter(*parts.front().mesh)) return parts;
+  for (Placed& part : parts) part.pose = Rigid{glm::dmat3(1.0), -first} * part.pose;
+  return parts;
+}
+
 std::string encode(const std::filesystem::path& path, const std::vector<Placed>& parts) {
   const std::string extension = extension_of(path);
   if (extension == ".glb") {
-    std::string glb = detail::write_glb(parts);
+    std::string glb = detail::write_glb(parts.size() > 1 ? near_the_origin(parts) : parts);
     if (glb.empty()) throw IoError(path.string(), "is more than a GLB file holds", "save it as .ply");
     return glb;
   }

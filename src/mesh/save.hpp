@@ -18,6 +18,8 @@ inline constexpr const char* kAssembledGlb = "assembled.glb";
 inline constexpr const char* kAssembledPly = "assembled.ply";
 inline constexpr std::array kSceneNames{kAssembledGlb, kAssembledPly, kJoinedGlb, kJoinedPly};
 
+inline constexpr double kFarFromOrigin = 1000.0;  ///< diameters of the first mesh of a scene
+
 /// A mesh at a pose in a scene file.
 struct Placed {
   std::string name;
@@ -33,7 +35,7 @@ struct Placed {
 void save(const std::filesystem::path& path, const Mesh& mesh);
 
 /// Writes several placed meshes: .glb gives one named node a mesh, with its transform; .ply and .obj give one
-/// merged mesh.
+/// merged mesh.  In a .glb, the first mesh's origin comes to zero if it is farther from it than kFarFromOrigin.
 void save_scene(const std::filesystem::path& path, const std::vector<Placed>& parts);
 
 }  // namespace rejoin::mesh

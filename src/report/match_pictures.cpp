@@ -13,9 +13,6 @@
 namespace rejoin::report {
 namespace {
 
-/// A scan this many of its diameters from the origin is far.
-constexpr double kFar = 1000.0;
-
 std::string file_name(const std::string& path) {
   return std::filesystem::path(path).filename().string();
 }
@@ -74,13 +71,9 @@ std::vector<std::filesystem::path> write_joined(const std::filesystem::path& fol
                                                 const match::Fragment& b, const Rigid& pose) {
   const mesh::Mesh first = tinted(a.surface, kTintA);
   const mesh::Mesh second = tinted(b.surface, kTintB);
-  // A GLB's numbers are floats: far from the origin the two would part, so A is brought there.
-  const bool far = glm::length(a.surface.origin) > kFar * a.diameter;
-  const Rigid to_origin{glm::dmat3(1.0), far ? -a.surface.origin : glm::dvec3(0.0)};
   std::vector<std::filesystem::path> files{folder / mesh::kJoinedGlb, folder / mesh::kJoinedPly};
-  mesh::save_scene(files[0],
-                   {{file_name(a.path), &first, to_origin}, {file_name(b.path), &second, to_origin * pose}});
-  mesh::save_scene(files[1], {{file_name(a.path), &first, Rigid{}}, {file_name(b.path), &second, pose}});
+  for (const auto& file : files)
+    mesh::save_scene(file, {{file_name(a.path), &first, Rigid{}}, {file_name(b.path), &second, pose}});
   return files;
 }
 

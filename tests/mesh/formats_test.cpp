@@ -151,6 +151,20 @@ TEST(Save, SceneGlbPlacesEveryPart) {
   EXPECT_NE(test::read_bytes(folder / "scene.glb").find("\"name\":\"b\""), std::string::npos);
 }
 
+// Viewers place nodes by floats: at grid coordinates the two would be up to half a unit apart.
+TEST(Save, SceneGlbFarFromTheOriginComesThere) {
+  const TemporaryFolder folder;
+  const Mesh sphere = test::icosphere(1, 2);
+  const glm::dvec3 far(5.4e6, 4.5e6, 120);
+  save_scene(folder / "a.glb", {{"a", &sphere, {glm::dmat3(1.0), far}},
+                                {"b", &sphere, {glm::dmat3(1.0), far + glm::dvec3(3, 0, 0)}}});
+  const Mesh loaded = load(folder / "a.glb").mesh;
+  const Box box = bounds(loaded);
+  EXPECT_EQ(loaded.origin, glm::dvec3(0.0));
+  EXPECT_NEAR(box.low.x, -1, 1e-6);
+  EXPECT_NEAR(box.high.x, 4, 1e-6);
+}
+
 TEST(Scene, LargerThanAGlbHoldsIsRefused) {
   const test::TemporaryFolder folder;
   Mesh cloud;

@@ -17,9 +17,8 @@ namespace rejoin::mesh::detail {
 namespace {
 
 constexpr std::size_t kNeighbours = 12;
-constexpr double kAgreeing =
-    0.98;  // share of normals that turning along the surface leaves as they came, or turns, of good ones
-constexpr double kBetter = 0.2;  // of all rays, that leave from the front and not from the back
+constexpr double kAgreeing = 0.95;  // share of good normals that turning along the surface leaves, or turns
+constexpr double kBetter = 0.2;     // of all rays, that leave from the front and not from the back
 
 using Lists = std::vector<std::vector<std::uint32_t>>;
 
