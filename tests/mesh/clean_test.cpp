@@ -225,19 +225,48 @@ TEST(Clean, TurnsAnOpenSurfaceOfWhichOnlyTheBackCanBeSeen) {
   ASSERT_EQ(loaded.warnings.size(), 1U);
   EXPECT_NE(loaded.warnings[0].find("inside out"), std::string::npos) << loaded.warnings[0];
   EXPECT_GT(test::volume(loaded.mesh), 3.5);
+}
 
-  // Not one of its faces shares a vertex with another.
+/// Every face with corners of its own, each up to `shift` away from its place along every axis.
+Mesh loose(const Mesh& mesh, double shift) {
   Mesh soup;
   Random random(8);
-  for (const glm::uvec3& face : sphere.faces) {
-    for (int k = 0; k < 3; ++k) {
-      const auto shift = [&] { return static_cast<float>(random.uniform(-1e-5, 1e-5)); };
-      soup.vertices.push_back(sphere.vertices[face[k]] + glm::vec3(shift(), shift(), shift()));
-    }
+  const auto some = [&] { return static_cast<float>(random.uniform(-shift, shift)); };
+  for (const glm::uvec3& face : mesh.faces) {
+    for (int k = 0; k < 3; ++k)
+      soup.vertices.push_back(mesh.vertices[face[k]] + glm::vec3(some(), some(), some()));
     const auto v = static_cast<std::uint32_t>(soup.vertices.size());
     soup.faces.emplace_back(v - 3, v - 2, v - 1);
   }
-  EXPECT_GT(test::volume(through_ply(soup).mesh), 3.5);
+  return soup;
+}
+
+TEST(Clean, JoinsFacesWhoseCornersDifferByRounding) {
+  const Mesh sphere = test::icosphere(1, 3);  // edges of 0.14
+  const Loaded loaded = through_ply(loose(sphere, 1e-5));
+  EXPECT_EQ(loaded.mesh.vertices.size(), sphere.vertices.size());
+  EXPECT_EQ(test::count_edges(loaded.mesh).open, 0U);
+  ASSERT_EQ(loaded.warnings.size(), 1U);
+  EXPECT_NE(loaded.warnings[0].find("made 642 of 3840 by joining near ones"), std::string::npos)
+      << loaded.warnings[0];
+
+  const Loaded apart = through_ply(loose(sphere, 0.02));
+  EXPECT_GT(apart.mesh.vertices.size(), 3800U);
+  ASSERT_FALSE(apart.warnings.empty());
+  EXPECT_NE(apart.warnings.back().find("hardly hang together"), std::string::npos) << apart.warnings.back();
+
+  // Points of no face are not its corners.
+  Mesh dotted = sphere;
+  for (int k = 0; k < 5000; ++k) dotted.vertices.emplace_back(2, 0, 1e-4F * static_cast<float>(k));
+  EXPECT_TRUE(through_ply(dotted).warnings.empty());
+}
+
+TEST(Clean, TurnsFacesThatHardlyHangTogether) {
+  Mesh inverted = inside_of_sphere(-2);
+  const Loaded loaded = through_ply(loose(inverted, 0.004));
+  EXPECT_GT(loaded.mesh.vertices.size(), 3000U);
+  EXPECT_NE(loaded.warnings.back().find("inside out"), std::string::npos) << loaded.warnings.back();
+  EXPECT_GT(test::volume(loaded.mesh), 3.5);
 }
 
 TEST(Clean, DropsTheBacksOfASurfaceWithBothSides) {

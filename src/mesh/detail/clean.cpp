@@ -152,6 +152,25 @@ bool normalize_all(std::vector<glm::vec3>& normals) {
   return good;
 }
 
+/// Joins the faces of a mesh whose corners differ by rounding.
+void weld_loose(Loaded& loaded, const std::string& name) {
+  constexpr std::size_t kFew = 16;  // faces, of which none need to touch
+  Mesh& mesh = loaded.mesh;
+  if (mesh.faces.size() < kFew || !is_loose(mesh)) return;
+  const std::size_t before = mesh.vertices.size();
+  weld_near(mesh);
+  if (mesh.vertices.size() < before) {
+    loaded.warnings.push_back(
+        fmt::format("{}: its faces hardly shared vertices, made {} of {} by joining near ones", name,
+                    mesh.vertices.size(), before));
+  }
+  if (is_loose(mesh)) {
+    loaded.warnings.push_back(name +
+                              ": its faces hardly hang together, so that breaks cannot be told (merge close "
+                              "vertices in the scanning software)");
+  }
+}
+
 void clean_faces(Loaded& loaded, const std::string& name) {
   Mesh& mesh = loaded.mesh;
   const std::size_t before = mesh.faces.size();
@@ -292,6 +311,7 @@ Loaded clean(const Soup& soup, const std::string& name, Weld which) {
                      "export the scan again");
   }
   weld(loaded.mesh, which);
+  if (!cloud) weld_loose(loaded, name);
   if (cloud) {
     clean_cloud(loaded, name);
   } else {

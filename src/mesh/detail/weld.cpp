@@ -7,6 +7,10 @@
 #include <limits>
 #include <utility>
 
+#include "core/components.hpp"
+#include "core/median.hpp"
+#include "mesh/point_index.hpp"
+
 namespace rejoin::mesh::detail {
 namespace {
 
@@ -98,6 +102,30 @@ void weld(Mesh& mesh, Weld which) {
   if (!mesh.normals.empty()) mesh.normals.resize(seen.size());
   if (!mesh.colours.empty()) mesh.colours.resize(seen.size());
   for (glm::uvec3& face : mesh.faces) face = {renumbered[face.x], renumbered[face.y], renumbered[face.z]};
+}
+
+bool is_loose(const Mesh& mesh) {
+  std::vector<bool> used(mesh.vertices.size(), false);
+  for (const glm::uvec3& face : mesh.faces) used[face.x] = used[face.y] = used[face.z] = true;
+  const auto vertices = static_cast<std::size_t>(std::count(used.begin(), used.end(), true));
+  return 2 * vertices > 3 * mesh.faces.size();
+}
+
+void weld_near(Mesh& mesh) {
+  constexpr float kNear = 0.01F;  // of the median edge
+  std::vector<float> edges;
+  for (const glm::uvec3& face : mesh.faces)
+    edges.push_back(glm::distance(mesh.vertices[face.x], mesh.vertices[face.y]));
+  const float radius = kNear * median(edges);
+  const PointIndex index(mesh.vertices);
+  Components places(mesh.vertices.size());
+  std::vector<std::uint32_t> near;
+  for (std::uint32_t i = 0; i < mesh.vertices.size(); ++i) {
+    index.within(mesh.vertices[i], radius, near);
+    for (const std::uint32_t k : near) places.unite(i, k);
+  }
+  for (std::uint32_t i = 0; i < mesh.vertices.size(); ++i) mesh.vertices[i] = mesh.vertices[places.of(i)];
+  weld(mesh);
 }
 
 Dropped drop_useless_faces(Mesh& mesh) {

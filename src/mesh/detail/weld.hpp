@@ -13,6 +13,12 @@ namespace rejoin::mesh::detail {
 /// added up (not unit length any more), the first colour is kept.
 void weld(Mesh& mesh, Weld which = Weld::Places);
 
+/// Whether faces hardly share vertices: there are more than 1.5 a face, where a surface has half of one.
+bool is_loose(const Mesh& mesh);
+
+/// Makes one vertex of vertices that are no farther apart than a hundredth of the median edge, or linked by such.
+void weld_near(Mesh& mesh);
+
 struct Dropped {
   std::size_t degenerate = 0;  ///< two corners the same, or no area
   std::size_t duplicate = 0;   ///< same corners in the same sense as an earlier face
