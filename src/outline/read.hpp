@@ -39,6 +39,7 @@ bool has_piece_name(const std::string& path);
 PieceSet read_pieces(const std::string& path, const ExtractOptions& options = {});
 
 /// The pieces of all files of a folder that read_pieces() knows, but for .json (other files end so), in the order of their names; copies of one count once.
+/// A file whose name is no UTF-8 is unusable: results are JSON, in which names are keys.
 /// \throws IoError    no such folder
 /// \throws InputError no file in it is known, or none can be used
 PieceSet read_folder(const std::string& folder, const ExtractOptions& options = {});

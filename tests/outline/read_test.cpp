@@ -246,6 +246,17 @@ TEST_F(Read, PipesAndFoldersWithNamesOfPicturesAreToldAndLeftOut) {
   EXPECT_NE(set.unusable[1].reason.find("pipe.png: is a pipe or device; "), std::string::npos);
 }
 
+TEST_F(Read, NamesThatAreNoUtf8AreToldAndLeftOut) {
+  write("\xC3\xBC.csv", "0,0\n1,0\n1,1\n0,1\n");
+  write("p\xFE.csv", "0,0\n2,0\n2,2\n0,2\n");
+  write("p\xFF.csv", "0,0\n3,0\n3,3\n0,3\n");
+  const PieceSet set = read_folder(folder_.string());
+  ASSERT_EQ(set.pieces.size(), 1U);
+  EXPECT_EQ(set.pieces[0].name, "\xC3\xBC.csv");
+  ASSERT_EQ(set.unusable.size(), 2U);
+  EXPECT_NE(set.unusable[0].reason.find("p\xFE.csv: its name is no UTF-8; rename it"), std::string::npos);
+}
+
 TEST_F(Read, FolderIsReadInTheOrderOfNames) {
   write("b.csv", "0,0\n1,0\n1,1\n0,1\n");
   write("a.csv", "0,0\n2,0\n2,2\n0,2\n");
