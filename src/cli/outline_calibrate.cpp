@@ -1,6 +1,7 @@
 /// rejoin outline calibrate
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 
@@ -21,6 +22,15 @@ std::string table(const std::vector<outline::CalibratedLevel>& levels) {
                     l.level.n_min, 100.0 * l.mistaken, l.true_candidates, l.false_candidates);
   }
   return text;
+}
+
+/// \throws InputError nothing was found for any scale, so that what would be written says nothing of the pieces
+void require_calibrated(const std::vector<outline::CalibratedLevel>& levels, const std::string& joins) {
+  if (std::ranges::any_of(levels, [](const outline::CalibratedLevel& l) { return l.calibrated; })) return;
+  throw InputError(joins,
+                   "no scale has ten places where its joins lie on each other and ten where pieces that do "
+                   "not join resemble each other",
+                   "give poses that lay the pieces side by side, and more pieces");
 }
 
 class OutlineCalibrateCommand final : public Command {
@@ -50,6 +60,7 @@ class OutlineCalibrateCommand final : public Command {
       console.warning("interrupted; nothing was written");
       return kInterrupted;
     }
+    require_calibrated(levels, path);
     if (json_) write_file(*json_, calibration_json(levels));
     console.result(table(levels));
     if (json_) console.result(fmt::format("wrote {}\n", *json_));

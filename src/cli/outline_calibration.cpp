@@ -1,13 +1,18 @@
 #include "cli/outline_calibration.hpp"
 
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
 
 #include "cli/json_values.hpp"
 #include "core/error.hpp"
 #include "core/version.hpp"
+#include "outline/join_fit.hpp"
 
 namespace rejoin::cli {
 namespace {
@@ -15,6 +20,12 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr const char* kSchema = "rejoin.outline-calibration/1";
+/// Of xi, zeta and n_min; calibrate() finds 24 at most.
+constexpr double kMostOfALevel = 1000.0;
+/// With steps that are this many times those of the pieces, or this part of them, joins begin to be lost;
+constexpr double kDoubtedStep = 2.0;
+/// and with these a border has no sample left, or takes all memory.
+constexpr double kImpossibleStep = 100.0;
 
 ordered_json parse_file(const std::string& path, const char* mend) {
   ordered_json json = ordered_json::parse(read_json_text(path, mend), nullptr, false);
@@ -135,11 +146,28 @@ void read_calibration(const std::string& path, outline::MultiscaleOptions& optio
       if (!level.is_object() || !level.contains(key) || !level[key].is_number() ||
           !(level[key].get<double>() >= 0.0))
         throw InputError(path, std::string("a level has no \"") + key + "\"", mend);
+      if (std::string_view(key) != "step" && level[key].get<double>() > kMostOfALevel)
+        throw InputError(path, fmt::format("a level's \"{}\" is above {}", key, kMostOfALevel), mend);
     }
     if (options.levels.empty()) options.step = level["step"].get<double>();
     options.levels.push_back(
         {level["xi"].get<double>(), level["zeta"].get<double>(), level["n_min"].get<double>()});
   }
+}
+
+std::optional<std::string> doubt_calibration(const std::string& path,
+                                             const outline::MultiscaleOptions& options,
+                                             const std::vector<outline::Piece>& pieces) {
+  if (options.step == 0.0) return std::nullopt;
+  const double usual = outline::automatic_step(pieces);
+  const double ratio = std::max(options.step / usual, usual / options.step);
+  if (ratio <= kDoubtedStep) return std::nullopt;
+  const std::string problem =
+      fmt::format("its finest step of {:.4g} is {:.3g} times as {} as that of these pieces, {:.4g}",
+                  options.step, ratio, options.step > usual ? "coarse" : "fine", usual);
+  const char* mend = "calibrate with pieces of their resolution and unit";
+  if (ratio > kImpossibleStep) throw InputError(path, problem, mend);
+  return InputError(path, problem, mend).what();
 }
 
 }  // namespace rejoin::cli

@@ -1,6 +1,7 @@
 /// Files around rejoin outline calibrate: known joins in, parameters out and in again.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,5 +25,12 @@ std::string calibration_json(const std::vector<outline::CalibratedLevel>& levels
 /// \throws IoError   it cannot be read
 /// \throws InputError it is something else
 void read_calibration(const std::string& path, outline::MultiscaleOptions& options);
+
+/// What to say of a calibration that was made with pieces of another resolution or unit: its steps are more than twice, or less
+/// than half of, what these pieces would have.
+/// \throws InputError 100 times as much, or less
+std::optional<std::string> doubt_calibration(const std::string& path,
+                                             const outline::MultiscaleOptions& options,
+                                             const std::vector<outline::Piece>& pieces);
 
 }  // namespace rejoin::cli

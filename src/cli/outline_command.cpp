@@ -53,6 +53,13 @@ void apply_calibration(const std::optional<std::string>& calibration, OutlineMet
   read_calibration(*calibration, options);
 }
 
+void check_calibration(const std::optional<std::string>& calibration,
+                       const outline::MultiscaleOptions& options, const std::vector<outline::Piece>& pieces,
+                       Console& console) {
+  const auto doubt = calibration ? doubt_calibration(*calibration, options, pieces) : std::nullopt;
+  if (doubt) console.warning(*doubt);
+}
+
 const char* name_of(OutlineMethod method) {
   switch (method) {
     case OutlineMethod::Automatic:

@@ -32,6 +32,12 @@ void add_calibration(CLI::App& app, std::optional<std::string>& calibration);
 void apply_calibration(const std::optional<std::string>& calibration, OutlineMethod method,
                        outline::MultiscaleOptions& options);
 
+/// Warns of a calibration that hardly fits the pieces.
+/// \throws InputError it does not at all
+void check_calibration(const std::optional<std::string>& calibration,
+                       const outline::MultiscaleOptions& options, const std::vector<outline::Piece>& pieces,
+                       Console& console);
+
 /// "multiscale" ...; what Automatic stands for is named as such.
 const char* name_of(OutlineMethod method);
 

@@ -177,12 +177,16 @@ std::vector<CalibratedLevel> calibrate(const std::vector<Piece>& pieces, const s
     }
     std::vector<Known> known;
     add_true(level, joins, static_cast<std::size_t>(options.samples), known);
-    CalibratedLevel result{step * std::pow(2.0, static_cast<double>(k)), default_level(), 0.5, known.size(),
-                           0};
+    CalibratedLevel result;
+    result.step = step * std::pow(2.0, static_cast<double>(k));
+    result.level = default_level();
+    result.mistaken = 0.5;
+    result.true_candidates = known.size();
     add_false(level, joined, static_cast<std::size_t>(options.samples), random, known);
     result.false_candidates = known.size() - result.true_candidates;
-    if (result.true_candidates >= kLeastCandidates && result.false_candidates >= kLeastCandidates)
-      separate(known, result);
+    result.calibrated =
+        result.true_candidates >= kLeastCandidates && result.false_candidates >= kLeastCandidates;
+    if (result.calibrated) separate(known, result);
     results.push_back(result);
   }
   return results;

@@ -32,6 +32,7 @@ struct CalibratedLevel {
       0.0;  ///< share of the known candidates on the wrong side of Delta = 0, true and false weighed alike
   std::size_t true_candidates = 0;
   std::size_t false_candidates = 0;
+  bool calibrated = false;  ///< false: too few candidates of a kind, so that the level is the default
 };
 
 /// For each scale the xi, zeta and n_min whose line S^2 = xi^2 (l - n_min) best separates the mismatch of true candidates

@@ -37,6 +37,8 @@ constexpr double kSameAngle = 5.0 * M_PI / 180.0;
 constexpr double kEvenEvidence = 20.0;
 constexpr double kEvidenceScale = 3.0;
 
+}  // namespace
+
 double automatic_step(const std::vector<Piece>& pieces) {
   std::vector<double> edges;
   double length = 0.0;
@@ -47,8 +49,6 @@ double automatic_step(const std::vector<Piece>& pieces) {
   }
   return std::max(kStepInEdges * median(edges), length / static_cast<double>(pieces.size()) / kMostSamples);
 }
-
-}  // namespace
 
 struct JoinFitter::State {
   std::vector<std::vector<ScaleSignal>> scales;  ///< of each piece

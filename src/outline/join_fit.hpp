@@ -16,8 +16,12 @@ struct PairedPlaces {
   double on_b = 0.0;
 };
 
+/// The finest scale that the pieces' own samples allow, file units: about two of them, on long borders more.
+/// \pre not empty, all with a border
+double automatic_step(const std::vector<Piece>& pieces);
+
 struct FitOptions {
-  double step = 0.0;  ///< finest scale, file units; 0: from the pieces (about two samples of the files)
+  double step = 0.0;  ///< finest scale, file units; 0: automatic_step()
   int scales = 6;     ///< looked at for agreement, each twice as coarse
   double tolerance =
       0.0;  ///< how far the two borders may be off each other along the join, file units; 0: from the pieces

@@ -201,6 +201,35 @@ TEST(OutlineAssemble, SearchesWithTheNumbersOfACalibration) {
   EXPECT_NE(missing.err.find("gone.json"), std::string::npos) << missing.err;
 }
 
+TEST(OutlineMatch, ACalibrationOfAnotherResolutionIsToldAndOneThatCannotFitIsRefused) {
+  const BrokenShapes shapes;
+  const std::string file = shapes / "numbers.json";
+  const std::vector<std::string> command = {
+      "outline",       "match", shapes.pieces + "/piece_000.csv", shapes.pieces + "/piece_001.csv",
+      "--calibration", file};
+  const auto write = [&](const std::string& step, const std::string& xi) {
+    write_file(file, R"({"schema": "rejoin.outline-calibration/1", "levels": [{"step": )" + step +
+                         R"(, "xi": )" + xi + R"(, "zeta": 1.8, "n_min": 5.0}]})");
+  };
+  // The pieces' own step is about 1.4 pixels.
+  write("1.8", "1.2");
+  EXPECT_EQ(run(command).err, "");
+  write("22.0", "1.2");
+  const Finished coarse = run(command);
+  EXPECT_EQ(coarse.exit_code, 0);
+  EXPECT_TRUE(is_one_line(coarse.err)) << coarse.err;
+  EXPECT_NE(
+      coarse.err.find("numbers.json: its finest step of 22 is 15.7 times as coarse as that of these pieces"),
+      std::string::npos)
+      << coarse.err;
+  for (const char* step : {"1e-300", "1e-3", "1e300"}) {
+    write(step, "1.2");
+    expect_refusal(command, "its finest step of");
+  }
+  write("1.4", "1e300");
+  expect_refusal(command, "a level's \"xi\" is above 1000");
+}
+
 TEST(OutlineMatch, APictureWithoutAPieceIsRefused) {
   const TemporaryFolder folder;
   const std::string blank = picture(folder, "blank.png", [](cv::Mat&) {});
@@ -339,6 +368,19 @@ TEST(OutlineCalibrate, JoinsThatAreNoneAreRefused) {
   expect_refusal({"outline", "calibrate", shapes.pieces, "--joins", shapes / "joins.json", "--json",
                   shapes / "out.json"},
                  "no two names");
+}
+
+TEST(OutlineCalibrate, JoinsThatLayNoPieceBesideAnotherAreRefused) {
+  const BrokenShapes shapes;
+  json far = shapes.truth;
+  far["joins"] = json::array({far["joins"][0]});
+  double shift = 0.0;
+  for (json& fragment : far["fragments"]) fragment["to_world"][0][2] = shift += 1e5;
+  write_file(shapes / "far.json", far.dump());
+  expect_refusal(
+      {"outline", "calibrate", shapes.pieces, "--joins", shapes / "far.json", "--json", shapes / "out.json"},
+      "far.json: no scale has ten places");
+  EXPECT_FALSE(std::filesystem::exists(shapes / "out.json"));
 }
 
 TEST(OutlineMatch, AScanAndAPictureAreWrongUse) {
