@@ -54,8 +54,11 @@ Outline outline_of(detail::Rings& rings, const std::string& path, std::vector<st
 
 std::vector<Outline> read_outlines(const std::string& path, Kind kind, std::vector<std::string>& notes) {
   const std::string text = read_text(path);
+  // Drawings may be UTF-16.
+  if (kind != Kind::Svg && text.find('\0') != std::string::npos)
+    throw InputError(path, "is UTF-16, or no text at all", "save it as UTF-8 text");
   std::vector<detail::Rings> all;
-  if (kind == Kind::Csv) all = detail::read_csv(path, text);
+  if (kind == Kind::Csv) all = detail::read_csv(path, text, notes);
   if (kind == Kind::Svg) all = detail::read_svg(path, text);
   if (kind == Kind::GeoJson) all = detail::read_geojson(path, text);
   std::vector<Outline> outlines;

@@ -28,8 +28,8 @@ bool has_piece_name(const std::string& path);
 
 /// Pieces of one file, by its name's ending:
 /// - png, jpg, jpeg, tif, tiff: pictures, see extract()
-/// - csv, txt: one outline, a point "x,y" a line (comma, semicolon, tab or blanks; a first line of words is skipped);
-///   "1,5;2,5" and "1,5 2,5" have decimal commas
+/// - csv, txt: one outline, a point "x,y" a line (comma, semicolon, tab or blanks); "1,5;2,5" and "1,5 2,5" have
+///   decimal commas; a first line of words may say which columns are x and y, else they are the first two
 /// - svg: each closed subpath of paths, polygons and rectangles is a border, one inside another a hole; curves are
 ///   flattened, transforms applied
 /// - geojson, json: each Polygon and each part of a MultiPolygon is a piece, with its holes

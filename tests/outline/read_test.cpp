@@ -173,6 +173,42 @@ TEST_F(Read, CsvLosesNoFirstLineThatIsNoPoint) {
   expect_refusal("a.csv", "0,one\n4,0\n4,2\n0,2\n", "line 1 is no point");
 }
 
+TEST_F(Read, CsvTakesTheColumnsThatAreNamedXAndY) {
+  const std::vector<glm::dvec2> expected = {{0, 5}, {7, 5}, {7, 8}, {0, 8}};
+  const auto points = [&](const char* name, const char* text) {
+    const PieceSet set = read_pieces(write(name, text));
+    EXPECT_TRUE(set.notes.empty()) << name;
+    return set.pieces.at(0).outline.points;
+  };
+  EXPECT_EQ(points("a.csv", "id,x,y\np1,0,5\n,7,5\n3,7,8\n4,0,8\n"), expected);
+  EXPECT_EQ(points("b.csv", "\"Y [mm]\";\"X [mm]\"\n5,0;0\n5,0;7,0\n8,0;7,0\n8,0;0\n"), expected);
+  EXPECT_EQ(points("c.txt", "n  lon  lat\n1  0  5\n2  7  5\n3  7  8\n4  0  8\n"), expected);
+  EXPECT_EQ(points("d.txt", "a\tb\n0\t5\n7\t5\n7\t8\n0\t8\n"), expected);
+  expect_refusal("e.csv", "id,x,y\n1,0,5\n2,7\n", "line 3 is no point");
+  expect_refusal("f.csv", "1,0,5\n2,7,5\n3,7,8\n4,0,8\n", "its first column counts the points");
+  EXPECT_EQ(read_pieces(write("g.csv", "a,b,c\n0,5,1\n7,5,2\n7,8,2\n0,8,3\n")).notes.size(), 1U);
+}
+
+TEST_F(Read, CsvMayBeginWithBlankLinesAndCommentsAndHaveSigns) {
+  EXPECT_DOUBLE_EQ(only_area(read_pieces(write("a.csv", "\n# km\nx,y\n+0,-0\n+4,0\n4,+2\n0,2\n"))), 8.0);
+  expect_refusal("b.csv", "0,0\n+-4,0\n", "line 2 is no point");
+  expect_refusal("c.csv", "\nx,y\nx,y\n", "line 3 is no point");
+}
+
+TEST_F(Read, CsvLinesMayEndWithCarriageReturnsAlone) {
+  EXPECT_DOUBLE_EQ(only_area(read_pieces(write("a.csv", "x,y\r0,0\r4,0\r4,2\r0,2\r"))), 8.0);
+  expect_refusal("b.csv", "0,0\r\n1,0\r\n\r\n1,one\r\n", "line 4 is no point");
+}
+
+TEST_F(Read, Utf16IsRefusedAsSuch) {
+  using namespace std::string_literals;
+  expect_refusal("a.csv",
+                 "\xFF\xFE"
+                 "0\0,\0000\0\n\0"s,
+                 "is UTF-16");
+  expect_refusal("b.geojson", "\xFE\xFF\0{\0}"s, "is UTF-16");
+}
+
 TEST_F(Read, CsvWhoseCommasMayMeanTwoThingsIsRefusedWithTheLine) {
   expect_refusal("a.csv", "0,5;0,5\n1,2,3;4\n", "line 2 has commas that may be decimal ones");
   expect_refusal("b.csv", "0;0\n1, 2;3\n", "line 2 has commas that may be decimal ones");

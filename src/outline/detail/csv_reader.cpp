@@ -1,9 +1,14 @@
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <charconv>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "core/error.hpp"
 #include "outline/detail/readers.hpp"
@@ -14,6 +19,17 @@ namespace {
 constexpr std::string_view kSeparators = ",; \t\r";
 constexpr std::string_view kBlanks = " \t";
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // spreadsheets begin files with it
+constexpr std::array<std::string_view, 5> kNamesOfX = {"x", "lon", "long", "longitude", "easting"};
+constexpr std::array<std::string_view, 4> kNamesOfY = {"y", "lat", "latitude", "northing"};
+constexpr const char* kMend = "write \"x,y\" in each line";
+
+/// Which columns hold x and y.
+struct Columns {
+  std::size_t x = 0;
+  std::size_t y = 1;
+
+  bool first_two() const { return x == 0 && y == 1; }
+};
 
 /// The next number of a line, taken off it; nullopt: what comes is none.
 std::optional<double> take_number(std::string_view& line) {
@@ -21,21 +37,65 @@ std::optional<double> take_number(std::string_view& line) {
   if (begin == std::string_view::npos) return std::nullopt;
   line.remove_prefix(begin);
   const std::string_view word = line.substr(0, line.find_first_of(kSeparators));
+  const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';  // which from_chars() does not take
   double value = 0.0;
-  const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
+  const auto [end, problem] = std::from_chars(word.data() + (plus ? 1 : 0), word.data() + word.size(), value);
   if (problem != std::errc() || end != word.data() + word.size()) return std::nullopt;
   line.remove_prefix(word.size());
   return value;
 }
 
-/// The next line, taken off the text, without the separators around it.
-std::string_view take_line(std::string_view& text) {
-  const std::size_t end = text.find('\n');
-  const std::string_view line = text.substr(0, end);
-  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  const std::size_t begin = line.find_first_not_of(kSeparators);
+std::string_view trimmed(std::string_view text, std::string_view away) {
+  const std::size_t begin = text.find_first_not_of(away);
   if (begin == std::string_view::npos) return {};
-  return line.substr(begin, line.find_last_not_of(kSeparators) + 1 - begin);
+  return text.substr(begin, text.find_last_not_of(away) + 1 - begin);
+}
+
+/// The next line, taken off the text with its end, which is one of "\n", "\r\n" and "\r".
+std::string_view take_line(std::string_view& text) {
+  const std::size_t end = text.find_first_of("\r\n");
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(std::min(line.size(), text.size()));
+  text.remove_prefix(text.starts_with("\r\n") ? 2 : text.empty() ? 0 : 1);
+  return line;
+}
+
+/// The columns of a line, which semicolons part or, where there is none, commas, tabs or blanks.
+std::vector<std::string_view> cells(std::string_view line) {
+  char parting = ' ';
+  for (const char c : {'\t', ',', ';'}) parting = line.find(c) != std::string_view::npos ? c : parting;
+  if (parting == ' ') line = trimmed(line, kBlanks);
+  std::vector<std::string_view> found;
+  while (true) {
+    const std::size_t end = line.find(parting);
+    found.push_back(trimmed(line.substr(0, end), " \t\""));
+    if (end == std::string_view::npos) return found;
+    line.remove_prefix(end + 1);
+    if (parting == ' ') line = trimmed(line, kBlanks);
+  }
+}
+
+/// A column's name without unit: "X [mm]" is "x".
+std::string name_of(std::string_view cell) {
+  std::string name;
+  for (const char c : cell) {
+    if (std::isalpha(static_cast<unsigned char>(c)) == 0) break;
+    name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return name;
+}
+
+/// The columns that a line of names calls x and y; nullopt: none of these, or they are not told apart.
+std::optional<Columns> named_columns(std::string_view line) {
+  const std::vector<std::string_view> names = cells(line);
+  const auto find = [&](const auto& known) {
+    const auto found = std::ranges::find_if(
+        names, [&](std::string_view cell) { return std::ranges::find(known, name_of(cell)) != known.end(); });
+    return static_cast<std::size_t>(found - names.begin());
+  };
+  const Columns columns{find(kNamesOfX), find(kNamesOfY)};
+  if (columns.x == names.size() || columns.y == names.size()) return std::nullopt;
+  return columns;
 }
 
 bool is_digit(std::string_view text, std::size_t i) {
@@ -73,42 +133,92 @@ std::optional<std::string> with_points(std::string_view line, bool blanks_part) 
   return text;
 }
 
-std::optional<glm::dvec2> parse_point(std::string_view line) {
-  const auto x = take_number(line);
-  const auto y = x ? take_number(line) : std::nullopt;
-  if (!y) return std::nullopt;
+std::optional<glm::dvec2> point_of(const std::optional<double>& x, const std::optional<double>& y) {
+  if (!x || !y) return std::nullopt;
   return glm::dvec2(*x, *y);
 }
 
-}  // namespace
+/// The first two numbers of a line, or those of the columns.
+std::optional<glm::dvec2> parse_point(std::string_view line, const Columns& columns) {
+  if (columns.first_two()) {
+    const auto x = take_number(line);
+    return point_of(x, take_number(line));
+  }
+  std::vector<std::string_view> row = cells(line);
+  if (row.size() <= std::max(columns.x, columns.y)) return std::nullopt;
+  const auto x = take_number(row[columns.x]);
+  return point_of(x, take_number(row[columns.y]));
+}
 
-std::vector<Rings> read_csv(const std::string& path, const std::string& file) {
-  std::string_view text = file;
-  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
-  bool blanks_part = false;
-  for (std::string_view rest = text; !rest.empty() && !blanks_part;)
-    blanks_part = is_pair_with_decimal_commas(take_line(rest));
+/// Reads the lines of one file.
+class Reader {
+ public:
+  Reader(const std::string& path, std::vector<std::string>& notes) : path_(path), notes_(notes) {}
+
+  void read(std::string_view text) {
+    for (std::string_view rest = text; !rest.empty() && !blanks_part_;)
+      blanks_part_ = is_pair_with_decimal_commas(trimmed(take_line(rest), kSeparators));
+    for (std::size_t number = 1; !text.empty(); ++number) {
+      const std::string_view line = take_line(text);
+      const std::string_view content = trimmed(line, kSeparators);
+      if (content.empty() || content[0] == '#') continue;
+      add(columns_.first_two() ? content : line, number);  // an empty first cell counts as a column
+    }
+    if (points.empty()) throw InputError(path_, "holds no points", kMend);
+    require_no_count();
+  }
+
   std::vector<glm::dvec2> points;
-  std::string_view rest = text;
-  std::size_t number = 0;
-  while (!rest.empty()) {
-    std::string_view line = take_line(rest);
-    ++number;
-    if (line.empty() || line[0] == '#') continue;
-    const auto plain = with_points(line, blanks_part);
-    const auto point = plain ? parse_point(*plain) : std::nullopt;
-    if (!point && points.empty() && number == 1 && !take_number(line)) continue;  // the columns' names
+
+ private:
+  void add(std::string_view line, std::size_t number) {
+    const bool first = !std::exchange(begun_, true);
+    const auto plain = with_points(line, blanks_part_);
+    const auto point = plain ? parse_point(*plain, columns_) : std::nullopt;
+    if (!point && first && !take_number(line)) return take_names(line);
     if (!plain) {
-      throw InputError(path,
+      throw InputError(path_,
                        fmt::format("line {} has commas that may be decimal ones or part columns", number),
                        "write \"x,y\" with decimal points in each line");
     }
-    if (!point)
-      throw InputError(path, fmt::format("line {} is no point", number), "write \"x,y\" in each line");
+    if (!point) throw InputError(path_, fmt::format("line {} is no point", number), kMend);
     points.push_back(*point);
+    more_columns_ = more_columns_ && cells(*plain).size() > 2;
   }
-  if (points.empty()) throw InputError(path, "holds no points", "write \"x,y\" in each line");
-  return {{{std::move(points)}, ""}};
+
+  void take_names(std::string_view line) {
+    const auto named = named_columns(line);
+    columns_ = named.value_or(Columns{});
+    if (!named && cells(line).size() > 2)
+      notes_.push_back(path_ + ": no columns are named x and y; the first two are taken");
+  }
+
+  /// Of a table whose first column counts its lines the outline would be no one's.
+  void require_no_count() const {
+    if (!more_columns_ || columns_.x != 0) return;
+    for (std::size_t i = 1; i < points.size(); ++i)
+      if (points[i].x != points[i - 1].x + 1.0) return;
+    throw InputError(path_, "its first column counts the points",
+                     "take it out, or name the columns in the first line, as \"id,x,y\"");
+  }
+
+  const std::string& path_;
+  std::vector<std::string>& notes_;
+  Columns columns_;
+  bool begun_ = false;  ///< a line that is neither empty nor a comment was read
+  bool blanks_part_ = false;
+  bool more_columns_ = true;
+};
+
+}  // namespace
+
+std::vector<Rings> read_csv(const std::string& path, const std::string& file,
+                            std::vector<std::string>& notes) {
+  std::string_view text = file;
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  Reader reader(path, notes);
+  reader.read(text);
+  return {{{std::move(reader.points)}, ""}};
 }
 
 }  // namespace rejoin::outline::detail

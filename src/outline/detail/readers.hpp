@@ -13,8 +13,10 @@ struct Rings {
   std::string place;  ///< of the border in the file, "polygon 3", for messages
 };
 
-/// \throws InputError a line is no point
-std::vector<Rings> read_csv(const std::string& path, const std::string& text);
+/// \param notes  gets what is doubtful, for the user
+/// \throws InputError a line is no point, or the first of several columns counts them
+std::vector<Rings> read_csv(const std::string& path, const std::string& text,
+                            std::vector<std::string>& notes);
 
 /// \throws InputError broken XML, broken path data, or no closed shape
 std::vector<Rings> read_svg(const std::string& path, const std::string& text);
