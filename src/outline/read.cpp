@@ -59,7 +59,7 @@ std::vector<Outline> read_outlines(const std::string& path, Kind kind, std::vect
     throw InputError(path, "is UTF-16, or no text at all", "save it as UTF-8 text");
   std::vector<detail::Rings> all;
   if (kind == Kind::Csv) all = detail::read_csv(path, text, notes);
-  if (kind == Kind::Svg) all = detail::read_svg(path, text);
+  if (kind == Kind::Svg) all = detail::read_svg(path, text, notes);
   if (kind == Kind::GeoJson) all = detail::read_geojson(path, text);
   std::vector<Outline> outlines;
   outlines.reserve(all.size());
@@ -164,24 +164,35 @@ bool is_other_picture(const fs::path& path) {
   return std::find(kKinds.begin(), kKinds.end(), extension_of(path)) != kKinds.end();
 }
 
-/// What to say of pictures whose files tell different resolutions; what cameras write where they know none is passed over.
-void doubt_resolutions(const std::vector<fs::path>& files, std::vector<std::string>& notes) {
+/// Units of a file's coordinates that it says are an inch; nullopt: it says none, or what cameras write where they know none.
+std::optional<double> units_an_inch(const fs::path& file) {
   constexpr double kUnknown = 96.5;  // dots an inch, and below
+  if (kind_of(file) == Kind::Svg) {
+    const double units = detail::svg_units_an_inch(file.string(), read_file(file));
+    return units > 0.0 ? std::optional(units) : std::nullopt;
+  }
+  if (kind_of(file) != Kind::Picture) return std::nullopt;
+  const auto header = detail::image_header(read_file(file));
+  if (!header || header->dots_per_inch < kUnknown) return std::nullopt;
+  return header->dots_per_inch;
+}
+
+/// What to say of pictures and drawings whose files tell different resolutions.
+void doubt_resolutions(const std::vector<fs::path>& files, std::vector<std::string>& notes) {
   constexpr double kSame = 1.02;
   std::optional<std::pair<double, std::string>> least;
   std::optional<std::pair<double, std::string>> most;
   for (const fs::path& file : files) {
-    if (kind_of(file) != Kind::Picture) continue;
-    const auto header = detail::image_header(read_file(file));
-    if (!header || header->dots_per_inch < kUnknown) continue;
-    const std::pair told(header->dots_per_inch, file.filename().string());
+    const auto units = units_an_inch(file);
+    if (!units) continue;
+    const std::pair told(*units, file.filename().string());
     if (!least || told.first < least->first) least = told;
     if (!most || told.first > most->first) most = told;
   }
   if (!least || most->first < kSame * least->first) return;
   notes.push_back(fmt::format(
-      "{} says that it has {:.0f} dots an inch, {} {:.0f}: pieces fit only at one resolution, so scale the "
-      "pictures to one if that is so",
+      "{} says that it has {:.5g} dots or units an inch, {} {:.5g}: pieces fit only at one resolution, so "
+      "scale the files to one if that is so",
       most->second, most->first, least->second, least->first));
 }
 

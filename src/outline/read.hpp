@@ -30,8 +30,9 @@ bool has_piece_name(const std::string& path);
 /// - png, jpg, jpeg, tif, tiff: pictures, see extract()
 /// - csv, txt: one outline, a point "x,y" a line (comma, semicolon, tab or blanks); "1,5;2,5" and "1,5 2,5" have
 ///   decimal commas; a first line of words may say which columns are x and y, else they are the first two
-/// - svg: each closed subpath of paths, polygons and rectangles is a border, one inside another a hole; curves are
-///   flattened, transforms applied
+/// - svg: each closed subpath of paths, polygons, rectangles, circles and ellipses is a border, one inside another a
+///   hole; curves are flattened, transforms applied; what is hidden, drawn twice or covers the page is left out, with a
+///   note, and so is told what a drawing has that is not read
 /// - geojson, json: each Polygon and each part of a MultiPolygon is a piece, with its holes
 /// Small self-crossings are cut off with a note; a file's y axis is kept as it is.
 /// \throws IoError   the file cannot be read

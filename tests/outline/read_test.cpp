@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <fmt/core.h>
+
 #include <filesystem>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
@@ -91,10 +93,102 @@ TEST_F(Read, SvgCurvesAreFlattened) {
               400.0 / 3.0, 1.0);
 }
 
+TEST_F(Read, SvgShapesThatAreNotSeenAreLeftOut) {
+  const std::string shape = "<polygon points='0,0 5,0 5,5 0,5'/>";
+  const std::string big = "<rect x='10' width='20' height='20'/>";
+  const auto expect_shape = [&](const std::string& name, const std::string& content,
+                                const std::string& note) {
+    SCOPED_TRACE(name);
+    const PieceSet set = read_pieces(write(name + ".svg", "<svg viewBox='0 0 60 60'>" + content + "</svg>"));
+    EXPECT_DOUBLE_EQ(only_area(set), 25.0);
+    EXPECT_TRUE(set.pieces[0].outline.holes.empty());
+    ASSERT_EQ(set.notes.size(), note.empty() ? 0U : 1U);
+    if (!note.empty()) {
+      EXPECT_NE(set.notes[0].find(note), std::string::npos) << set.notes[0];
+    }
+  };
+  expect_shape("layer", shape + "<g style='fill:none; display: none'><g display='inline'>" + big + "</g></g>",
+               "1 shape left out as hidden");
+  expect_shape("invisible", "<g visibility='hidden'>" + big + "<g visibility='visible'>" + shape + "</g></g>",
+               "1 shape left out as hidden");
+  for (const char* kind : {"defs", "symbol", "clipPath", "mask", "marker", "pattern"})
+    expect_shape(kind, shape + "<" + kind + ">" + big + "</" + kind + ">", "");
+  expect_shape("page", "<rect width='60' height='60'/>" + shape, "covers the page");
+  expect_shape("percent", "<rect width='100%' height='100%'/>" + shape, "covers the page");
+  expect_shape("beyond", "<path d='M-5-5H99V99H-5z'/>" + shape, "covers the page");
+  expect_shape("twice", shape + shape, "1 shape drawn twice");
+}
+
+TEST_F(Read, SvgDrawingOfARectangleTheSizeOfItsPageIsKept) {
+  EXPECT_DOUBLE_EQ(
+      only_area(read_pieces(write("a.svg", "<svg viewBox='0 0 6 6'><rect width='6' height='6'/></svg>"))),
+      36.0);
+}
+
+TEST_F(Read, SvgLengthsHaveUnitsAndCornersMayBeRound) {
+  const auto area = [&](const std::string& content) {
+    return only_area(read_pieces(write("a.svg", "<svg viewBox='0 0 200 400'>" + content + "</svg>")));
+  };
+  EXPECT_NEAR(area("<rect width='1in' height='25.4mm'/>"), 96.0 * 96.0, 1e-6);
+  EXPECT_NEAR(area("<rect width='50%' height='10%'/>"), 100.0 * 40.0, 1e-6);
+  EXPECT_NEAR(area("<circle cx='9' cy='9' r='10'/>"), M_PI * 100.0, 1.0);
+  EXPECT_NEAR(area("<ellipse cx='9' cy='9' rx='10' ry='20'/>"), M_PI * 200.0, 2.0);
+  EXPECT_NEAR(area("<rect width='100' height='50' rx='10'/>"), 5000.0 - (4.0 - M_PI) * 100.0, 2.0);
+  EXPECT_NEAR(area("<rect width='100' height='50' rx='900' ry='900'/>"), M_PI * 50.0 * 25.0, 8.0);
+  expect_refusal("b.svg", "<svg><rect width='3em' height='4'/></svg>", "width=\"3em\" is no length");
+}
+
+TEST_F(Read, SvgDrawingsInDrawingsAndTransformsOfStylesAreApplied) {
+  const std::string shape = "<polygon points='0,0 5,0 5,5 0,5'/>";
+  const auto first = [&](const std::string& content) {
+    const PieceSet set = read_pieces(write("a.svg", "<svg viewBox='0 0 60 60'>" + content + "</svg>"));
+    EXPECT_TRUE(set.notes.empty());
+    return std::pair(set.pieces[0].outline.points[0], signed_area(set.pieces[0].outline.points));
+  };
+  EXPECT_EQ(first("<svg x='3' y='4'>" + shape + "</svg>"), std::pair(glm::dvec2(3, 4), 25.0));
+  // Twice as large, and 10 units beside it because the place is wider than the box.
+  EXPECT_EQ(first("<svg x='1' width='40' height='20' viewBox='0 0 10 10'>" + shape + "</svg>"),
+            std::pair(glm::dvec2(11, 0), 100.0));
+  EXPECT_EQ(
+      first("<g transform='scale(9)' style='transform: translate(2px, 3px) scale(2)'>" + shape + "</g>"),
+      std::pair(glm::dvec2(2, 3), 100.0));
+}
+
+TEST_F(Read, SvgTellsWhatItDoesNotRead) {
+  const std::string shape = "<polygon points='0,0 5,0 5,5 0,5'/>";
+  const auto note = [&](const std::string& content) {
+    const PieceSet set = read_pieces(write("a.svg", "<svg>" + shape + content + "</svg>"));
+    return set.notes.size() == 1 ? set.notes[0] : std::to_string(set.notes.size());
+  };
+  EXPECT_NE(note("<use href='#a'/><use href='#b'/>").find("(<use>)"), std::string::npos);
+  EXPECT_NE(note("<style>.a { display: none }</style>").find("style sheets"), std::string::npos);
+  EXPECT_NE(note("<g clip-path='url(#a)'/>").find("clip path"), std::string::npos);
+  EXPECT_NE(note("<g transform-origin='center'/>").find("transform-origin"), std::string::npos);
+  EXPECT_EQ(note("<style>.a { fill: none }</style>"), "0");
+}
+
+TEST_F(Read, SvgDrawingsOfDifferentUnitsAreDoubted) {
+  const auto write_drawing = [&](const char* name, const char* size, int corner) {
+    write(name, fmt::format("<svg {}><polygon points='0,0 5,0 5,{} 0,5'/></svg>", size, corner));
+  };
+  write_drawing("a.svg", "width='50mm' viewBox='0 0 50 50'", 5);
+  write_drawing("b.svg", "width='2in' viewBox='0 0 50.8 50'", 6);
+  write_drawing("c.svg", "width='70' viewBox='0 0 500 500'", 7);
+  EXPECT_TRUE(read_folder(folder_.string()).notes.empty());
+  write_drawing("d.svg", "width='50mm'", 8);
+  ASSERT_EQ(read_folder(folder_.string()).notes.size(), 1U);
+  EXPECT_NE(read_folder(folder_.string()).notes[0].find("d.svg says that it has 96 dots or units an inch, "),
+            std::string::npos);
+}
+
 TEST_F(Read, BrokenSvgIsRefused) {
   expect_refusal("a.svg", "<svg><path d='M0 0 L", "no SVG");
   expect_refusal("b.svg", "<svg><path d='M0 0 L 1 x'/></svg>", "path data");
   expect_refusal("c.svg", "<svg></svg>", "no closed shape");
+  expect_refusal("d.svg", "<svg><defs><rect id='a' width='4' height='4'/></defs><use href='#a'/></svg>",
+                 "holds no closed shape; copies of shapes (<use>)");
+  expect_refusal("e.svg", "<svg><rect style='display:none' width='4' height='4'/></svg>",
+                 "that is not hidden");
 }
 
 TEST_F(Read, GeoJsonPolygonsWithHoles) {

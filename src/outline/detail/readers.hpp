@@ -18,8 +18,15 @@ struct Rings {
 std::vector<Rings> read_csv(const std::string& path, const std::string& text,
                             std::vector<std::string>& notes);
 
+/// What is hidden, drawn twice or the page's background is left out.
+/// \param notes  gets what was left out, and what the drawing has that is not read
 /// \throws InputError broken XML, broken path data, or no closed shape
-std::vector<Rings> read_svg(const std::string& path, const std::string& text);
+std::vector<Rings> read_svg(const std::string& path, const std::string& text,
+                            std::vector<std::string>& notes);
+
+/// Units of a drawing's coordinates that are an inch by its width; 0: that has no physical unit.
+/// \throws InputError broken XML, or its width is no length
+double svg_units_an_inch(const std::string& path, const std::string& text);
 
 /// \throws InputError broken JSON, or no polygon in it
 std::vector<Rings> read_geojson(const std::string& path, const std::string& text);

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <pugixml.hpp>
+#include <set>
+#include <string_view>
 
 #include "core/error.hpp"
+#include "core/words.hpp"
 #include "outline/detail/readers.hpp"
-#include "outline/detail/svg_path.hpp"
+#include "outline/detail/svg_element.hpp"
 #include "outline/outline.hpp"
 #include "outline/polygon.hpp"
 
@@ -15,103 +18,177 @@ namespace {
 
 using Polygon = std::vector<glm::dvec2>;
 
-constexpr int kDeepest = 200;  ///< groups in groups
+constexpr int kDeepest = 200;        ///< groups in groups
+constexpr double kPageEdge = 1e-3;   ///< of its size, by which a page's background may miss it
+constexpr double kSameShape = 1e-9;  ///< of the coordinates, by which a shape that is drawn twice may differ
 
-/// One function of a transform attribute.
-glm::dmat3 transform_of(const std::string& name, std::vector<double> v) {
-  glm::dmat3 m(1.0);
-  const auto number = [&](std::size_t i, double other) { return i < v.size() ? v[i] : other; };
-  if (name == "matrix" && v.size() == 6) m = {{v[0], v[1], 0}, {v[2], v[3], 0}, {v[4], v[5], 1}};
-  if (name == "translate") m[2] = {number(0, 0), number(1, 0), 1};
-  if (name == "scale") m = {{number(0, 1), 0, 0}, {0, number(1, number(0, 1)), 0}, {0, 0, 1}};
-  if (name == "skewX") m[1][0] = std::tan(number(0, 0) * M_PI / 180.0);
-  if (name == "skewY") m[0][1] = std::tan(number(0, 0) * M_PI / 180.0);
-  if (name == "rotate") {
-    const double angle = number(0, 0) * M_PI / 180.0;
-    const glm::dvec2 centre(number(1, 0), number(2, 0));
-    const glm::dmat2 turn(std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle));
-    m = {glm::dvec3(turn[0], 0), glm::dvec3(turn[1], 0), glm::dvec3(centre - turn * centre, 1)};
-  }
+/// What an element takes from those around it.
+struct Scope {
+  glm::dmat3 to_page{1.0};
+  glm::dvec2 size{0.0};  ///< of the drawing that it is in, for lengths in %
+  bool displayed = true;
+  bool visible = true;
+};
+
+/// Elements whose content is not drawn where it stands.
+bool is_drawn_elsewhere(std::string_view name) {
+  return name == "defs" || name == "symbol" || name == "clipPath" || name == "mask" || name == "marker" ||
+         name == "pattern";
+}
+
+/// The coordinates of a drawing in a drawing -> those around it; the view box is fitted into the middle, as where nothing else
+/// is said.
+glm::dmat3 placed_in(const ViewBox& box, const ViewBox& place) {
+  const glm::dvec2 shares = (place.high - place.low) / (box.high - box.low);
+  const double scale = std::min(shares.x, shares.y);
+  glm::dmat3 m(scale);
+  m[2] = glm::dvec3(0.5 * (place.low + place.high - scale * (box.low + box.high)), 1.0);
   return m;
+}
+
+bool same_polygon(const Polygon& a, const Polygon& b) {
+  return std::ranges::equal(a, b, [](const glm::dvec2& p, const glm::dvec2& q) {
+    return glm::distance(p, q) <= kSameShape * (std::abs(p.x) + std::abs(p.y));
+  });
+}
+
+/// Whether a polygon is an upright rectangle that covers a page.
+bool covers(const Polygon& polygon, const ViewBox& page) {
+  const glm::dvec2 slack = kPageEdge * (page.high - page.low);
+  if (slack.x <= 0.0 || slack.y <= 0.0 || polygon.size() > 5) return false;
+  glm::dvec2 low = polygon[0];
+  glm::dvec2 high = polygon[0];
+  for (const glm::dvec2& p : polygon) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  return glm::all(glm::lessThanEqual(low, page.low + slack)) &&
+         glm::all(glm::greaterThanEqual(high, page.high - slack)) &&
+         std::abs(signed_area(polygon)) > (1.0 - kPageEdge) * (high.x - low.x) * (high.y - low.y);
 }
 
 class Reader {
  public:
-  explicit Reader(const std::string& path) : path_(path) {}
+  Reader(const std::string& path, std::vector<std::string>& notes) : path_(path), notes_(notes) {}
 
-  void read(const pugi::xml_node& node, const glm::dmat3& above, int depth) {
-    const std::string name = local_name(node);
-    if (name == "defs" || name == "symbol" || name == "clipPath" || name == "mask") return;
-    if (depth > kDeepest) throw InputError(path_, "groups lie too deep in each other", kMend);
-    const glm::dmat3 here = above * transform(node.attribute("transform").value());
-    if (name == "path") add(path_polygons(node), here);
-    if (name == "polygon" || name == "polyline") add({listed_points(node)}, here);
-    if (name == "rect") add({rectangle(node)}, here);
-    for (const pugi::xml_node& child : node.children()) read(child, here, depth + 1);
+  void read(const pugi::xml_node& root) {
+    Scope page;
+    page_ = view_box(root, page.size, path_);
+    page.size = page_.high - page_.low;
+    read(root, page, 0);
+    leave_out_background();
+    if (hidden_ > 0) note(fmt::format("{} left out as hidden", counted(hidden_, "shape")));
+    if (repeated_ > 0) note(fmt::format("{} drawn twice; each counts once", counted(repeated_, "shape")));
+    for (const std::string& what : unread_) note(what);
+    if (!polygons.empty()) return;
+    throw InputError(path_,
+                     hidden_ > 0 ? "holds no closed shape that is not hidden" : "holds no closed shape",
+                     unread_.empty() ? kSvgMend : *unread_.begin());
   }
 
   std::vector<Polygon> polygons;
 
-  static constexpr const char* kMend = "draw the outlines as closed paths or polygons";
-
  private:
-  static std::string local_name(const pugi::xml_node& node) {
-    const std::string name = node.name();
-    return name.substr(name.find(':') == std::string::npos ? 0 : name.find(':') + 1);
+  void note(const std::string& what) { notes_.push_back(path_ + ": " + what); }
+
+  void read(const pugi::xml_node& node, Scope scope, int depth) {
+    const std::string name = local_name(node);
+    if (depth > kDeepest) throw InputError(path_, "groups lie too deep in each other", kSvgMend);
+    if (name == "style") return look_at_sheet(node);
+    if (is_drawn_elsewhere(name)) return;
+    look_for_unread(node, name, depth);
+    enter(node, name, depth, scope);
+    for (Polygon& polygon : polygons_of(node, scope.size, path_)) add(std::move(polygon), scope);
+    for (const pugi::xml_node& child : node.children()) read(child, scope, depth + 1);
   }
 
-  glm::dmat3 transform(std::string_view text) const {
-    glm::dmat3 result(1.0);
-    while (text.find('(') != std::string_view::npos) {
-      const std::size_t open = text.find('(');
-      const std::size_t shut = text.find(')', open);
-      const auto numbers =
-          parse_numbers(text.substr(open + 1, shut == std::string_view::npos ? shut : shut - open - 1));
-      if (shut == std::string_view::npos || !numbers) throw InputError(path_, "a transform is broken", kMend);
-      std::string name;
-      for (const char c : text.substr(0, open)) {
-        if (std::isalpha(static_cast<unsigned char>(c)) != 0) name += c;
-      }
-      result = result * transform_of(name, *numbers);
-      text.remove_prefix(shut + 1);
+  void enter(const pugi::xml_node& node, const std::string& name, int depth, Scope& scope) const {
+    if (property(node, "display") == "none") scope.displayed = false;
+    const std::string visibility = property(node, "visibility");
+    if (!visibility.empty()) scope.visible = visibility == "visible";
+    scope.to_page = scope.to_page * transform_of(node, path_);
+    if (name != "svg" || depth == 0) return;
+    const auto length = [&](const char* attribute, double around, double other) {
+      const auto given = length_of(node, attribute, around, path_);
+      return given ? given->value : other;
+    };
+    ViewBox place;
+    place.low = {length("x", scope.size.x, 0.0), length("y", scope.size.y, 0.0)};
+    place.high = place.low + glm::dvec2(length("width", scope.size.x, scope.size.x),
+                                        length("height", scope.size.y, scope.size.y));
+    ViewBox box{{}, place.high - place.low};
+    if (!node.attribute("viewBox").empty()) box = view_box(node, scope.size, path_);
+    if (glm::any(glm::lessThanEqual(glm::min(box.high - box.low, place.high - place.low), glm::dvec2(0.0))))
+      throw InputError(path_, "a drawing in the drawing has no size", "give its width, height and viewBox");
+    scope.to_page = scope.to_page * placed_in(box, place);
+    scope.size = box.high - box.low;
+  }
+
+  void look_for_unread(const pugi::xml_node& node, const std::string& name, int depth) {
+    if (name == "use") unread_.insert("copies of shapes (<use>) are not read; make them shapes of their own");
+    const auto clips = [&](const char* by) {
+      const std::string value = property(node, by);
+      return !value.empty() && value != "none";
+    };
+    if (clips("clip-path") || clips("mask"))
+      unread_.insert("shapes are read whole where a clip path or mask hides parts of them");
+    if (!property(node, "transform-origin").empty())
+      unread_.insert("transform-origin is not read; write transforms about the drawing's origin");
+    const std::string_view fit = node.attribute("preserveAspectRatio").value();
+    if (name == "svg" && depth > 0 && !fit.empty() && fit != "xMidYMid" && fit != "xMidYMid meet")
+      unread_.insert("preserveAspectRatio is not read; the inner drawing is fitted into the middle");
+  }
+
+  void look_at_sheet(const pugi::xml_node& style) {
+    std::string text = style.text().get();
+    std::erase_if(text, [](unsigned char c) { return std::isspace(c) != 0; });
+    for (const char* what : {"display:none", "visibility:hidden", "transform:"}) {
+      if (text.find(what) != std::string::npos)
+        unread_.insert(
+            "style sheets are not read, and this one hides or moves shapes; write that into the shapes");
     }
-    return result;
   }
 
-  std::vector<Polygon> path_polygons(const pugi::xml_node& node) const {
-    std::string problem;
-    auto found = flatten_path(node.attribute("d").value(), problem);
-    if (!found) throw InputError(path_, problem, kMend);
-    return std::move(*found);
-  }
-
-  Polygon listed_points(const pugi::xml_node& node) const {
-    const auto numbers = parse_numbers(node.attribute("points").value());
-    if (!numbers) throw InputError(path_, "the points of a polygon are broken", kMend);
-    Polygon polygon;
-    polygon.reserve(numbers->size() / 2);
-    for (std::size_t i = 0; i + 1 < numbers->size(); i += 2)
-      polygon.emplace_back((*numbers)[i], (*numbers)[i + 1]);
-    return polygon;
-  }
-
-  static Polygon rectangle(const pugi::xml_node& node) {
-    const glm::dvec2 at(node.attribute("x").as_double(), node.attribute("y").as_double());
-    const glm::dvec2 size(node.attribute("width").as_double(), node.attribute("height").as_double());
-    return {at, {at.x + size.x, at.y}, at + size, {at.x, at.y + size.y}};
-  }
-
-  void add(std::vector<Polygon> found, const glm::dmat3& transform) {
-    for (Polygon& polygon : found) {
-      if (polygon.size() < 3) continue;
-      for (glm::dvec2& p : polygon) p = glm::dvec2(transform * glm::dvec3(p, 1.0));
-      require_usual_points(polygon, fmt::format("{}, shape {}", path_, polygons.size() + 1));
-      polygons.push_back(std::move(polygon));
+  void add(Polygon polygon, const Scope& scope) {
+    if (polygon.size() < 3) return;
+    if (!scope.displayed || !scope.visible) {
+      ++hidden_;
+      return;
     }
+    for (glm::dvec2& p : polygon) p = glm::dvec2(scope.to_page * glm::dvec3(p, 1.0));
+    require_usual_points(polygon, fmt::format("{}, shape {}", path_, polygons.size() + 1));
+    if (std::ranges::any_of(polygons, [&](const Polygon& other) { return same_polygon(polygon, other); })) {
+      ++repeated_;
+      return;
+    }
+    polygons.push_back(std::move(polygon));
+  }
+
+  /// A rectangle as large as the page would have all pieces as holes.
+  void leave_out_background() {
+    const auto first = std::stable_partition(polygons.begin(), polygons.end(),
+                                             [&](const Polygon& polygon) { return !covers(polygon, page_); });
+    if (first == polygons.end() || first == polygons.begin()) return;
+    polygons.erase(first, polygons.end());
+    note("a rectangle that covers the page is taken for its background and left out");
   }
 
   const std::string& path_;
+  std::vector<std::string>& notes_;
+  ViewBox page_;
+  std::size_t hidden_ = 0;
+  std::size_t repeated_ = 0;
+  std::set<std::string> unread_;  ///< what the drawing has and this reader does not look at
 };
+
+pugi::xml_node parse(pugi::xml_document& document, const std::string& path, const std::string& text) {
+  const pugi::xml_parse_result parsed = document.load_buffer(text.data(), text.size());
+  if (!parsed) {
+    throw InputError(path, fmt::format("is no SVG: {} at byte {}", parsed.description(), parsed.offset),
+                     "save it again");
+  }
+  return document.document_element();
+}
 
 }  // namespace
 
@@ -142,17 +219,21 @@ std::vector<Rings> nest(const std::vector<Polygon>& polygons) {
   return pieces;
 }
 
-std::vector<Rings> read_svg(const std::string& path, const std::string& text) {
+std::vector<Rings> read_svg(const std::string& path, const std::string& text,
+                            std::vector<std::string>& notes) {
   pugi::xml_document document;
-  const pugi::xml_parse_result parsed = document.load_buffer(text.data(), text.size());
-  if (!parsed) {
-    throw InputError(path, fmt::format("is no SVG: {} at byte {}", parsed.description(), parsed.offset),
-                     "save it again");
-  }
-  Reader reader(path);
-  reader.read(document.document_element(), glm::dmat3(1.0), 0);
-  if (reader.polygons.empty()) throw InputError(path, "holds no closed shape", Reader::kMend);
+  Reader reader(path, notes);
+  reader.read(parse(document, path, text));
   return nest(reader.polygons);
+}
+
+double svg_units_an_inch(const std::string& path, const std::string& text) {
+  pugi::xml_document document;
+  const pugi::xml_node root = parse(document, path, text);
+  const auto width = length_of(root, "width", 0.0, path);
+  if (!width || !width->physical || !(width->value > 0.0)) return 0.0;
+  const ViewBox box = view_box(root, glm::dvec2(0.0), path);
+  return kPixelsAnInch * (box.high.x - box.low.x) / width->value;
 }
 
 }  // namespace rejoin::outline::detail
