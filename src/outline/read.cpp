@@ -39,19 +39,24 @@ std::string read_text(const std::string& path) {
   return text;
 }
 
-Outline outline_of(detail::Rings& rings, const std::string& path, std::vector<std::string>& notes) {
-  const std::string subject = rings.place.empty() ? path : path + ", " + rings.place;
+/// The outline of a polygon with its holes; a hole that is none is left out with a note.
+Outline outline_of(detail::Rings& rings, const std::string& subject, std::vector<std::string>& notes) {
   Outline outline;
   outline.points = mend_polygon(std::move(rings.rings[0]), subject, notes);
   for (std::size_t h = 1; h < rings.rings.size(); ++h) {
-    if (rings.rings[h].size() < 4) continue;
-    outline.holes.push_back(
-        mend_polygon(std::move(rings.rings[h]), fmt::format("{}, hole {}", subject, h), notes));
-    std::reverse(outline.holes.back().begin(), outline.holes.back().end());
+    try {
+      outline.holes.push_back(
+          mend_polygon(std::move(rings.rings[h]), fmt::format("{}, hole {}", subject, h), notes));
+      std::reverse(outline.holes.back().begin(), outline.holes.back().end());
+    } catch (const InputError& error) {
+      notes.push_back(fmt::format("{} (left out)", error.what()));
+    }
   }
   return outline;
 }
 
+/// What can be used of a file's outlines, largest first.
+/// \throws InputError none can
 std::vector<Outline> read_outlines(const std::string& path, Kind kind, std::vector<std::string>& notes) {
   const std::string text = read_text(path);
   // Drawings may be UTF-16.
@@ -63,7 +68,16 @@ std::vector<Outline> read_outlines(const std::string& path, Kind kind, std::vect
   if (kind == Kind::GeoJson) all = detail::read_geojson(path, text);
   std::vector<Outline> outlines;
   outlines.reserve(all.size());
-  for (detail::Rings& rings : all) outlines.push_back(outline_of(rings, path, notes));
+  std::exception_ptr first_problem;
+  for (detail::Rings& rings : all) {
+    try {
+      outlines.push_back(outline_of(rings, rings.place.empty() ? path : path + ", " + rings.place, notes));
+    } catch (const InputError& error) {
+      notes.push_back(fmt::format("{} (left out)", error.what()));
+      if (!first_problem) first_problem = std::current_exception();
+    }
+  }
+  if (outlines.empty()) std::rethrow_exception(first_problem);
   std::stable_sort(outlines.begin(), outlines.end(), [](const Outline& a, const Outline& b) {
     return signed_area(a.points) > signed_area(b.points);
   });

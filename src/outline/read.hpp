@@ -34,7 +34,7 @@ bool has_piece_name(const std::string& path);
 ///   hole; curves are flattened, transforms applied; what is hidden, drawn twice or covers the page is left out, with a
 ///   note, and so is told what a drawing has that is not read
 /// - geojson, json: each Polygon and each part of a MultiPolygon is a piece, with its holes
-/// Small self-crossings are cut off with a note; a file's y axis is kept as it is.
+/// Small self-crossings are cut off with a note; a border that is no outline is left out with one, if others are left; a file's y axis is kept as it is.
 /// \throws IoError   the file cannot be read
 /// \throws InputError its content is no outline; the message names the place
 PieceSet read_pieces(const std::string& path, const ExtractOptions& options = {});

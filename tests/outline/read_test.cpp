@@ -211,6 +211,25 @@ TEST_F(Read, BrokenGeoJsonIsRefused) {
   expect_refusal("d.geojson", R"({"type":7,"coordinates":3})", "no polygon");
 }
 
+TEST_F(Read, ARingThatIsNoOutlineIsToldAndLeftOutWhereOthersAreLeft) {
+  const std::string good = "[[0,0],[9,0],[9,9],[0,9]]";
+  const std::string three = "[[20,0],[21,0],[20,1]]";
+  const std::string crossing = "[[2,2],[4,4],[4,2],[2,4]]";
+  const auto polygons = [](const std::string& list) {
+    return R"({"type":"MultiPolygon","coordinates":[)" + list + "]}";
+  };
+  const PieceSet map =
+      read_pieces(write("a.geojson", polygons("[" + three + "],[],[" + good + "," + crossing + "]")));
+  EXPECT_DOUBLE_EQ(only_area(map), 81.0);
+  EXPECT_TRUE(map.pieces[0].outline.holes.empty());
+  ASSERT_EQ(map.notes.size(), 2U);
+  EXPECT_NE(map.notes[0].find("a.geojson, polygon 1: an outline of 3 points"), std::string::npos)
+      << map.notes[0];
+  EXPECT_NE(map.notes[1].find("hole 1: the outline crosses itself"), std::string::npos) << map.notes[1];
+  EXPECT_EQ(read_pieces(write("b.svg", "<svg><path d='M0 0H9V9H0z M20 0H21L20 1'/></svg>")).notes.size(), 1U);
+  expect_refusal("c.geojson", polygons("[" + three + "]"), "polygon 1: an outline of 3 points");
+}
+
 TEST_F(Read, CoordinatesWhoseAreasOverflowAreRefused) {
   expect_refusal("a.csv", "-1e308,0\n1e308,0\n1e308,1\n0,1\n", "point 1 (-1e+308, 0) is not within 1e+12");
   expect_refusal("b.geojson", R"({"type":"Polygon","coordinates":[[[0,0],[1,0],[1,2e12],[0,1]]]})",

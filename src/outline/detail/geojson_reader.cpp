@@ -47,7 +47,8 @@ class Reader {
   }
 
   void add(const json& polygon) {
-    if (!polygon.is_array() || polygon.empty()) fail("it has no ring");
+    if (!polygon.is_array()) fail("it has no ring");
+    if (polygon.empty()) return;  // GeoJSON's word for no polygon
     Rings rings;
     rings.place = fmt::format("polygon {}", result.size() + 1);
     for (const json& ring : polygon) rings.rings.push_back(points(ring));
