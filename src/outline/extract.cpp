@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/error.hpp"
 #include "outline/detail/contour.hpp"
@@ -197,14 +198,14 @@ void judge_cut_pieces(std::vector<Polygon>& outer, const cv::Mat& image, std::ve
 }  // namespace
 
 Extraction extract(const std::string& path, const ExtractOptions& options) {
-  const cv::Mat image = detail::load_image(path, options.max_pixels);
+  Extraction result;
+  const cv::Mat image = detail::load_image(path, options.max_pixels, &result.notes);
   detail::Coverage coverage = detail::coverage(image, path);
   Loops loops = sort_loops(detail::contours(coverage.field, 0.5F, kLeastPoints), options.min_area);
   if (loops.outer.empty()) {
     throw InputError(path, "no piece: what stands out is smaller than a few pixels", "scan with more pixels");
   }
-  Extraction result;
-  result.notes = std::move(coverage.notes);
+  std::move(coverage.notes.begin(), coverage.notes.end(), std::back_inserter(result.notes));
   judge_cut_pieces(loops.outer, image, result.notes);
   if (!coverage.distance.empty()) doubt_background(loops.outer, coverage.distance, result.notes);
   result.pieces.reserve(loops.outer.size());

@@ -16,7 +16,8 @@ struct ExtractOptions {
 
 /// What a picture holds.
 struct Extraction {
-  std::vector<Outline> pieces;     ///< largest first; pixel centres have whole coordinates, x right, y down
+  std::vector<Outline>
+      pieces;  ///< largest first; pixel centres have whole coordinates, x right, y down, upright
   std::vector<std::string> notes;  ///< what was repaired or may be wrong, a sentence each; for the user
 };
 

@@ -47,6 +47,27 @@ cv::Mat disc(const cv::Size& size) {
   return cover;
 }
 
+std::string read_bytes(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Sets a number of 16 bits in the first directory of a TIFF that OpenCV wrote (lowest byte first).
+void set_tiff_tag(const std::string& path, int tag, char value) {
+  std::string bytes = read_bytes(path);
+  const auto number = [&](std::size_t at, std::size_t count) {
+    std::size_t result = 0;
+    for (std::size_t i = count; i-- > 0;) result = 256 * result + static_cast<unsigned char>(bytes[at + i]);
+    return result;
+  };
+  const std::size_t directory = number(4, 4);
+  for (std::size_t i = 0; i < number(directory, 2); ++i) {
+    const std::size_t entry = directory + 2 + 12 * i;
+    if (number(entry, 2) == static_cast<std::size_t>(tag)) bytes[entry + 8] = value;
+  }
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
 /// The disc in colour on a plain background.
 cv::Mat painted(const cv::Mat& cover, const cv::Vec3d& piece, const cv::Vec3d& background, double scale,
                 int type) {
@@ -326,6 +347,57 @@ TEST(Extract, HugeClaimIsRefusedBeforeDecoding) {
   expect_refusal(folder.file("disc.tif"), "128 x 120", options);
   cv::imwrite(folder.file("disc.jpg"), painted(disc({128, 120}), {0.5, 0.6, 0.7}, {0, 0, 0}, 255, CV_8UC3));
   expect_refusal(folder.file("disc.jpg"), "128 x 120", options);
+}
+
+TEST(Extract, AJpegIsTurnedUprightAsItsExifSays) {
+  const Folder folder;
+  const std::string path = folder.file("disc.jpg");
+  cv::imwrite(path, painted(disc({128, 120}), {0.5, 0.6, 0.7}, {0, 0, 0}, 255, CV_8UC3));
+  std::string bytes = read_bytes(path);
+  // One entry: tag 0x112, a number of 16 bits, 6: a quarter turn to the right.
+  const std::string exif(
+      "\xFF\xE1\0\x22"
+      "Exif\0\0"
+      "II*\0\x8\0\0\0"
+      "\1\0"
+      "\x12\1\3\0\1\0\0\0\6\0\0\0"
+      "\0\0\0\0",
+      36);
+  bytes.insert(20, exif);  // behind the JFIF segment
+  std::ofstream(path, std::ios::binary) << bytes;
+  const Extraction found = extract(path);
+  ASSERT_EQ(found.pieces.size(), 1U);
+  glm::dvec2 middle(0.0);
+  for (const glm::dvec2& p : found.pieces[0].points)
+    middle += p / static_cast<double>(found.pieces[0].points.size());
+  EXPECT_NEAR(middle.x, 119.0 - kCentre.y, 0.5);
+  EXPECT_NEAR(middle.y, kCentre.x, 0.5);
+}
+
+TEST(Extract, FurtherPagesOfATiffAreTold) {
+  const Folder folder;
+  const cv::Mat page = painted(disc({128, 120}), {0.5, 0.6, 0.7}, {0, 0, 0}, 255, CV_8UC3);
+  cv::imwritemulti(folder.file("pages.tif"), std::vector<cv::Mat>{page, page, page});
+  const Extraction found = extract(folder.file("pages.tif"));
+  EXPECT_EQ(found.pieces.size(), 1U);
+  EXPECT_EQ(found.notes, std::vector<std::string>{"holds 3 pages; the first is read"});
+}
+
+TEST(Extract, TiffsThatWouldLoseSomethingAreRefusedInOurOwnWords) {
+  const Folder folder;
+  const std::string path = folder.file("disc.tif");
+  const auto write = [&](int tag, char value) {
+    cv::imwrite(path, cv::Mat(120, 128, CV_8U, cv::Scalar(9)));
+    set_tiff_tag(path, tag, value);
+  };
+  testing::internal::CaptureStderr();
+  write(258, 4);
+  expect_refusal(path, "has 4 bits a channel");
+  write(277, 2);
+  expect_refusal(path, "is a grey TIFF with transparency");
+  write(262, 77);  // how numbers are colours: no such way
+  expect_refusal(path, "cannot be decoded");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 }  // namespace

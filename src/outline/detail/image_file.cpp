@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iostream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -100,29 +101,81 @@ double tiff_ratio(std::string_view bytes, std::size_t place, bool big) {
   return above && below && *below > 0 ? static_cast<double>(*above) / static_cast<double>(*below) : 0.0;
 }
 
-/// Width and height are tags 256 and 257 of the first directory, as 16 or 32 bits; 282 is dots across a unit, 296 the unit (2 inch, 3 cm).
-std::optional<ImageHeader> tiff_header(std::string_view bytes) {
-  const bool big = bytes[0] == 'M';
-  const auto directory = number_at(bytes, 4, 4, big);
-  const auto entries = directory ? number_at(bytes, *directory, 2, big) : std::nullopt;
-  if (!entries) return std::nullopt;
+/// One directory of a TIFF, which describes one picture.
+struct TiffDirectory {
   ImageHeader header;
+  bool is_page = true;   ///< not a small version or a mask of another
+  std::size_t next = 0;  ///< place of the next directory, 0: none
+};
+
+/// Tags: 254 kind (bit 0 small version, bit 2 mask), 256 width, 257 height, 258 bits, 277 samples, 282 dots across a unit, 296 the unit (2 inch, 3 cm).
+std::optional<TiffDirectory> tiff_directory(std::string_view bytes, std::size_t place, bool big) {
+  const auto entries = number_at(bytes, place, 2, big);
+  if (!entries) return std::nullopt;
+  TiffDirectory directory;
+  ImageHeader& header = directory.header;
   double to_inch = 1.0;
   for (std::size_t i = 0; i < *entries; ++i) {
-    const std::size_t entry = *directory + 2 + 12 * i;
+    const std::size_t entry = place + 2 + 12 * i;
     const auto tag = number_at(bytes, entry, 2, big);
     const auto type = number_at(bytes, entry + 2, 2, big);
+    const auto count = number_at(bytes, entry + 4, 4, big);
     const auto value = number_at(bytes, entry + 8, type == 3U ? 2 : 4, big);
     if (!tag || !value) return std::nullopt;
+    if (*tag == 254) directory.is_page = (*value & 5U) == 0;
     if (*tag == 256) header.width = *value;
     if (*tag == 257) header.height = *value;
+    if (*tag == 258) header.bits = *value;
+    if (*tag == 258 && count > 2U) {  // so many stand elsewhere
+      const auto there = number_at(bytes, entry + 8, 4, big);
+      header.bits = there ? number_at(bytes, *there, 2, big).value_or(0) : 0;
+    }
+    if (*tag == 277) header.samples = *value;
     if (*tag == 282) header.dots_per_inch = tiff_ratio(bytes, *value, big);
     if (*tag == 296) to_inch = *value == 3 ? kCentimetresAnInch : *value == 2 ? 1.0 : 0.0;
   }
-  if (header.width == 0 || header.height == 0) return std::nullopt;
   header.dots_per_inch *= to_inch;
+  directory.next = number_at(bytes, place + 2 + 12 * *entries, 4, big).value_or(0);
+  return directory;
+}
+
+/// Of the first directory, with the number of pages of all.
+std::optional<ImageHeader> tiff_header(std::string_view bytes) {
+  constexpr std::size_t kMostPages = 1000;  // a broken file may lead in a circle
+  const bool big = bytes[0] == 'M';
+  const auto place = number_at(bytes, 4, 4, big);
+  const auto first = place ? tiff_directory(bytes, *place, big) : std::nullopt;
+  if (!first || first->header.width == 0 || first->header.height == 0) return std::nullopt;
+  ImageHeader header = first->header;
+  for (auto page = first; page && page->next != 0 && header.pages < kMostPages;) {
+    page = tiff_directory(bytes, page->next, big);
+    if (page && page->is_page) ++header.pages;
+  }
   return header;
 }
+
+/// What OpenCV would drop, or cannot read and says so in its own words.
+void require_usual_samples(const ImageHeader& header, const std::string& path) {
+  constexpr std::array<std::size_t, 6> kReadBits = {1, 8, 10, 12, 14, 16};
+  if (std::find(kReadBits.begin(), kReadBits.end(), header.bits) == kReadBits.end()) {
+    throw InputError(path, fmt::format("has {} bits a channel", header.bits),
+                     "save it with 8 or 16 bits a channel");
+  }
+  if (header.samples == 2)
+    throw InputError(path, "is a grey TIFF with transparency, which would be lost", "save it as PNG");
+}
+
+/// OpenCV tells what it cannot decode on stderr; the user gets our own words.
+class SilentErrors {
+ public:
+  SilentErrors() : before_(std::cerr.rdbuf(nullptr)) {}
+  ~SilentErrors() { std::cerr.rdbuf(before_); }
+  SilentErrors(const SilentErrors&) = delete;
+  SilentErrors& operator=(const SilentErrors&) = delete;
+
+ private:
+  std::streambuf* before_;
+};
 
 /// Grey, colour, with and without alpha, 8 or 16 bits -> floats 0..1.
 cv::Mat unify(const cv::Mat& image, const std::string& path) {
@@ -165,7 +218,7 @@ std::optional<ImageHeader> image_header(std::string_view bytes) {
   return std::nullopt;
 }
 
-cv::Mat load_image(const std::string& path, std::size_t max_pixels) {
+cv::Mat load_image(const std::string& path, std::size_t max_pixels, std::vector<std::string>* notes) {
   const std::string bytes = read_file(path);
   if (bytes.empty()) throw InputError(path, "is empty", "save the picture again");
   const std::optional<ImageHeader> header = image_header(bytes);
@@ -181,10 +234,16 @@ cv::Mat load_image(const std::string& path, std::size_t max_pixels) {
   }
   if (is_jpeg(bytes) && !jpeg_is_whole(bytes))
     throw InputError(path, "is cut short: its end is missing", "save the picture again");
+  require_usual_samples(*header, path);
+  if (notes && header->pages > 1)
+    notes->push_back(fmt::format("holds {} pages; the first is read", header->pages));
   cv::Mat image;
   try {
     const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
-    image = cv::imdecode(buffer, cv::IMREAD_UNCHANGED);
+    const SilentErrors silent;
+    // Unchanged keeps transparency, which a JPEG has none of, but does not turn it upright.
+    image = cv::imdecode(buffer,
+                         is_jpeg(bytes) ? cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH : cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception& problem) {
     throw InputError(path, "cannot be decoded (" + problem.err + ")", "save it as 8-bit PNG");
   }

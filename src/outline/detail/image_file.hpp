@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace rejoin::outline::detail {
 
@@ -15,6 +16,9 @@ struct ImageHeader {
   std::size_t width = 0;
   std::size_t height = 0;
   double dots_per_inch = 0.0;  ///< across; 0: not told
+  std::size_t bits = 8;        ///< a channel; told of a TIFF
+  std::size_t samples = 1;     ///< a pixel; told of a TIFF
+  std::size_t pages = 1;
 };
 
 /// Whether a file's name ends as those of pictures that are read do.
@@ -23,10 +27,12 @@ bool has_picture_name(const std::filesystem::path& path);
 /// Size from the header of a PNG, JPEG or TIFF; nullopt if it is none or its header is broken.
 std::optional<ImageHeader> image_header(std::string_view bytes);
 
-/// Decodes a PNG, JPEG or TIFF to floats 0..1 with 3 channels (blue, green, red) or 4 (and alpha).
-/// \param max_pixels  refused above
+/// Decodes a PNG, JPEG or TIFF to floats 0..1 with 3 channels (blue, green, red) or 4 (and alpha), upright as the orientation
+/// of a JPEG or TIFF says; of several pages the first.
+/// \param max_pixels  refused above   \param notes  gets what is not read of the file
 /// \throws IoError   the file cannot be read
 /// \throws InputError it is no such picture, is larger, or is damaged
-cv::Mat load_image(const std::string& path, std::size_t max_pixels);
+cv::Mat load_image(const std::string& path, std::size_t max_pixels,
+                   std::vector<std::string>* notes = nullptr);
 
 }  // namespace rejoin::outline::detail
