@@ -69,6 +69,7 @@ class OutlineMatchCommand final : public Command {
     if (json_) require_writable_file(*json_);
     if (out_) require_writable_folder(*out_);
     const std::vector<outline::Piece> pieces{load_piece(path_a_, console), load_piece(path_b_, console)};
+    if (const auto doubt = outline::doubt_resolutions({path_a_, path_b_})) console.warning(*doubt);
     check_calibration(calibration_, multiscale, pieces, console);
     console.detail(fmt::format("read both pieces in {:.2f} s", seconds_since(begin)));
     const std::unique_ptr<outline::Matcher> matcher = make_matcher(method_, multiscale);

@@ -191,23 +191,22 @@ std::optional<double> units_an_inch(const fs::path& file) {
   return header->dots_per_inch;
 }
 
-/// What to say of pictures and drawings whose files tell different resolutions.
-void doubt_resolutions(const std::vector<fs::path>& files, std::vector<std::string>& notes) {
+std::optional<std::string> doubt_resolutions(const std::vector<std::string>& files) {
   constexpr double kSame = 1.02;
   std::optional<std::pair<double, std::string>> least;
   std::optional<std::pair<double, std::string>> most;
-  for (const fs::path& file : files) {
+  for (const fs::path file : files) {
     const auto units = units_an_inch(file);
     if (!units) continue;
     const std::pair told(*units, file.filename().string());
     if (!least || told.first < least->first) least = told;
     if (!most || told.first > most->first) most = told;
   }
-  if (!least || most->first < kSame * least->first) return;
-  notes.push_back(fmt::format(
+  if (!least || most->first < kSame * least->first) return std::nullopt;
+  return fmt::format(
       "{} says that it has {:.5g} dots or units an inch, {} {:.5g}: pieces fit only at one resolution, so "
       "scale the files to one if that is so",
-      most->second, most->first, least->second, least->first));
+      most->second, most->first, least->second, least->first);
 }
 
 /// Whether JSON, whose text is UTF-8, can tell a name from others.
@@ -278,7 +277,8 @@ PieceSet read_folder(const std::string& folder, const ExtractOptions& options) {
                      file.string())});
   }
   std::erase_if(files, [&](const fs::path& file) { return !add_file(file, options, all); });
-  doubt_resolutions(files, all.notes);
+  const auto doubt = doubt_resolutions({files.begin(), files.end()});
+  if (doubt) all.notes.push_back(*doubt);
   take_out_repeats(all);
   if (all.pieces.empty()) throw InputError(folder, "holds nothing that can be used", all.unusable[0].reason);
   return all;

@@ -1,6 +1,7 @@
 /// Flat pieces from files of any known kind.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,5 +45,9 @@ PieceSet read_pieces(const std::string& path, const ExtractOptions& options = {}
 /// \throws IoError    no such folder
 /// \throws InputError no file in it is known, or none can be used
 PieceSet read_folder(const std::string& folder, const ExtractOptions& options = {});
+
+/// What to say of pictures and drawings whose files tell different resolutions or units; up to 96 dots an inch, which programs
+/// write where they know none, are passed over.  read_folder() has it in its notes.
+std::optional<std::string> doubt_resolutions(const std::vector<std::string>& files);
 
 }  // namespace rejoin::outline

@@ -246,6 +246,25 @@ TEST(OutlineMatch, APieceThatRunsOutOfThePictureIsTold) {
   EXPECT_NE(finished.err.find("touches the picture's border"), std::string::npos) << finished.err;
 }
 
+TEST(OutlineMatch, PicturesOfDifferentResolutionsAreTold) {
+  const TemporaryFolder folder;
+  cv::Mat image(64, 64, CV_8U, cv::Scalar(255));
+  cv::rectangle(image, cv::Rect(10, 12, 40, 30), cv::Scalar(0), cv::FILLED);
+  const auto write = [&](const std::string& name, int dots) {
+    ++image.at<std::uint8_t>(20, 20);  // no two files are the same
+    cv::imwrite(folder / name, image,
+                {cv::IMWRITE_TIFF_RESUNIT, 2, cv::IMWRITE_TIFF_XDPI, dots, cv::IMWRITE_TIFF_YDPI, dots});
+    return folder / name;
+  };
+  const std::string fine = write("fine.tif", 600);
+  const Finished told = run({"outline", "match", fine, write("coarse.tif", 300)});
+  EXPECT_EQ(told.exit_code, 0);
+  EXPECT_NE(told.err.find("fine.tif says that it has 600 dots or units an inch, coarse.tif 300"),
+            std::string::npos)
+      << told.err;
+  EXPECT_EQ(run({"outline", "match", fine, write("same.tif", 600)}).err, "");
+}
+
 TEST(OutlineMatch, AnOutlineOfThreePointsIsRefused) {
   const TemporaryFolder folder;
   write_file(folder / "three.csv", "x,y\n0,0\n10,0\n0,10\n");
