@@ -94,7 +94,8 @@ cv::Scalar colour_of(std::size_t piece) {
 
 /// The piece's own colours within its region, blue, green, red.
 cv::Mat placed_colours(const Piece& piece, const Planar& pose, const View& view, const cv::Rect& region) {
-  const cv::Mat colours = detail::colours_of(piece);
+  // The mask's edge reaches a pixel of the canvas beyond the border.
+  const cv::Mat colours = detail::colours_of(piece, 2 + static_cast<int>(std::ceil(1.0 / view.scale)));
   const glm::dmat3 m = matrix(pose);
   const glm::dvec2 shift = view(glm::dvec2(m[2])) - glm::dvec2(region.x, region.y);
   const cv::Matx23d motion(view.scale * m[0][0], view.scale * m[1][0], shift.x, view.scale * m[0][1],

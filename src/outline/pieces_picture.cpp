@@ -49,7 +49,7 @@ class Source {
  public:
   const cv::Mat& of(const Piece& piece) {
     if (piece.path != path_) {
-      colours_ = detail::colours_of(piece);
+      colours_ = detail::colours_on_white(piece);
       path_ = piece.path;
     }
     return colours_;

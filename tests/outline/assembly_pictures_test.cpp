@@ -67,6 +67,28 @@ TEST_F(AssemblyPictures, SheetShowsEveryPieceWithItsOutlineOverIt) {
   }
 }
 
+TEST_F(AssemblyPictures, WhatLiesUnderTransparentPixelsIsNowhereSeen) {
+  Piece piece = coloured("a.png", {200, 220, 210});
+  Assembly assembly = side_by_side();
+  // Turned, so that every pixel of the border is a mean of some of the picture's.
+  assembly.placements[1].pose = Planar{0.3, {49.0, 3.0}, false};
+  for (const int side : {4000, 40}) {
+    write_assembly_pictures(folder_, {piece, piece}, assembly, {.longest_side = side});
+    const cv::Mat object = cv::imread((folder_ / "object_1.png").string(), cv::IMREAD_UNCHANGED);
+    for (int y = 0; y < object.rows; ++y) {
+      for (int x = 0; x < object.cols; ++x) {
+        const auto pixel = object.at<cv::Vec4b>(y, x);
+        if (pixel[3] < 8) continue;  // so little of a colour is rounded
+        EXPECT_NEAR(pixel[0], 200, 3) << x << " " << y;
+        EXPECT_NEAR(pixel[1], 220, 3) << x << " " << y;
+      }
+    }
+  }
+  write_pieces_picture(folder_ / "pieces.png", {piece});
+  const cv::Mat sheet = cv::imread((folder_ / "pieces.png").string());
+  EXPECT_EQ(sheet.at<cv::Vec3b>(sheet.rows / 2 - 11, 11), cv::Vec3b(255, 255, 255));
+}
+
 TEST_F(AssemblyPictures, KeepTheColoursAndAreTransparentOutside) {
   const std::vector<Piece> pieces = {coloured("a.png", {0, 0, 200}), coloured("b.png", {180, 20, 0})};
   write_assembly_pictures(folder_, pieces, side_by_side());

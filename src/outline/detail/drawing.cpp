@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "core/ascii.hpp"
@@ -12,6 +13,26 @@ namespace rejoin::outline::detail {
 namespace {
 
 constexpr std::size_t kMaxPixels = 120000000;
+constexpr double kNothing = 1e-6;  // of opacity
+
+/// The picture's colours with what `behind` gives where it is transparent.
+/// \param behind  (a channel times alpha, alpha) -> that channel of what is seen through it
+template <typename Behind>
+cv::Mat visible_colours(const Piece& piece, const Behind& behind) {
+  std::vector<cv::Mat> planes;
+  cv::split(load_image(piece.path, kMaxPixels), planes);
+  if (planes.size() == 4) {
+    const cv::Mat alpha = planes[3];
+    planes.resize(3);
+    for (cv::Mat& plane : planes) {
+      const cv::Mat seen = plane.mul(alpha);
+      plane = seen + behind(seen, alpha).mul(1.0 - alpha);
+    }
+  }
+  cv::Mat colours;
+  cv::merge(planes, colours);
+  return colours;
+}
 
 }  // namespace
 
@@ -19,13 +40,24 @@ bool is_picture(const Piece& piece) {
   return has_picture_name(piece.path);
 }
 
-cv::Mat colours_of(const Piece& piece) {
-  std::vector<cv::Mat> planes;
-  cv::split(load_image(piece.path, kMaxPixels), planes);
-  planes.resize(3);
-  cv::Mat colours;
-  cv::merge(planes, colours);
-  return colours;
+cv::Mat colours_of(const Piece& piece, int reach) {
+  const cv::Size around(2 * reach + 1, 2 * reach + 1);
+  cv::Mat soft;  // how much is opaque around a pixel
+  return visible_colours(piece, [&](const cv::Mat& seen, const cv::Mat& alpha) {
+    if (soft.empty()) {
+      cv::blur(alpha, soft, around);
+      soft = cv::max(soft, kNothing);
+    }
+    cv::Mat near;
+    cv::blur(seen, near, around);
+    return cv::Mat(near / soft);
+  });
+}
+
+cv::Mat colours_on_white(const Piece& piece) {
+  return visible_colours(piece, [](const cv::Mat& seen, const cv::Mat&) {
+    return cv::Mat(seen.size(), CV_32F, cv::Scalar(1.0));
+  });
 }
 
 std::string short_name(const std::string& full) {

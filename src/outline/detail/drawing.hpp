@@ -12,9 +12,13 @@ namespace rejoin::outline::detail {
 /// Whether the piece was read from a picture, which can be read again.
 bool is_picture(const Piece& piece);
 
-/// The picture's colours as they were read, CV_32FC3, blue green red; transparent places have whatever lies under them.
+/// The picture's colours, CV_32FC3, blue green red.  What is transparent has the mean of what is opaque within `reach` pixels, so
+/// that resampling mixes nothing into a piece that is not seen.
 /// \throws IoError, InputError  it cannot be read again
-cv::Mat colours_of(const Piece& piece);
+cv::Mat colours_of(const Piece& piece, int reach);
+
+/// The same with white where the picture is transparent.
+cv::Mat colours_on_white(const Piece& piece);
 
 /// At most 32 letters that the font has, cut in the middle: names of pictures differ at their ends.
 std::string short_name(const std::string& full);
