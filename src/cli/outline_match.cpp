@@ -4,11 +4,13 @@
 #include <chrono>
 #include <filesystem>
 #include <optional>
+#include <system_error>
 
 #include "cli/arguments.hpp"
 #include "cli/outline_command.hpp"
 #include "cli/outline_json.hpp"
 #include "cli/outline_rims.hpp"
+#include "cli/outputs.hpp"
 #include "core/files.hpp"
 #include "mesh/load.hpp"
 #include "outline/stitch.hpp"
@@ -67,7 +69,7 @@ class OutlineMatchCommand final : public Command {
     outline::MultiscaleOptions multiscale = thorough();
     apply_calibration(calibration_, method_, multiscale);
     if (json_) require_writable_file(*json_);
-    if (out_) require_writable_folder(*out_);
+    if (out_) require_out();
     const std::vector<outline::Piece> pieces{load_piece(path_a_, console), load_piece(path_b_, console)};
     if (const auto doubt = outline::doubt_resolutions({path_a_, path_b_})) console.warning(*doubt);
     check_calibration(calibration_, multiscale, pieces, console);
@@ -87,6 +89,7 @@ class OutlineMatchCommand final : public Command {
     }
     console.result(summary(pieces[0], pieces[1], result));
     if (json_) console.result(fmt::format("wrote {}\n", *json_));
+    if (out_) remove_earlier();
     if (out_ && !context.cancelled()) {
       for (const std::filesystem::path& file :
            report::write_outline_match_pictures(*out_, pieces[0], pieces[1], result, verdict_of(result)))
@@ -96,6 +99,21 @@ class OutlineMatchCommand final : public Command {
   }
 
  private:
+  void require_out() const {
+    require_writable_folder(*out_);
+    for (const std::filesystem::path& file : report::outline_match_pictures(*out_)) {
+      require_apart("--out", file, path_a_);
+      require_apart("--out", file, path_b_);
+    }
+  }
+
+  /// The pictures of an earlier pair would be taken for those of this one.
+  void remove_earlier() const {
+    std::error_code ignored;
+    for (const std::filesystem::path& file : report::outline_match_pictures(*out_))
+      std::filesystem::remove(file, ignored);
+  }
+
   ExitCode run_rims(Console& console, Context& context) {
     if (!mesh::has_scan_name(path_a_) || !mesh::has_scan_name(path_b_))
       throw UsageError("A B", "one is a scan and the other is flat", "give two of a kind");

@@ -5,6 +5,8 @@
 #include <limits>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <regex>
+#include <system_error>
 
 #include "outline/contact.hpp"
 #include "outline/detail/drawing.hpp"
@@ -124,6 +126,19 @@ void lay(cv::Mat canvas, const cv::Mat& colours, const cv::Mat& mask) {
   }
 }
 
+/// Takes pictures of objects away that are none of these.
+void remove_others(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files) {
+  static const std::regex kOurs(R"((object|joins)_[0-9]+\.png)");
+  std::vector<std::filesystem::path> others;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    if (std::regex_match(entry.path().filename().string(), kOurs) &&
+        std::find(files.begin(), files.end(), folder / entry.path().filename()) == files.end())
+      others.push_back(entry.path());
+  }
+  for (const std::filesystem::path& other : others) std::filesystem::remove(other, ignored);
+}
+
 std::vector<std::uint8_t> png_of(const cv::Mat& image) {
   std::vector<std::uint8_t> bytes;
   cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 6});
@@ -235,6 +250,7 @@ std::vector<std::filesystem::path> write_assembly_pictures(const std::filesystem
     files.push_back(folder / ("joins_" + number + ".png"));
     detail::write_png(files.back(), joins_picture(objects[k], assembly.joins, view));
   }
+  remove_others(folder, files);
   return files;
 }
 

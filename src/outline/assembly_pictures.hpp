@@ -26,6 +26,7 @@ std::vector<std::uint8_t> assembled_png(const std::vector<Piece>& pieces, const 
 /// - object_1.png ..: the pieces of an object in their places, see assembled_png()
 /// - joins_1.png ..: the same pieces in grey with their common boundaries in red and their numbers, and beside them
 ///   which number is which piece
+/// Pictures of further objects that an earlier run has left there are removed.
 /// \return the files
 /// \throws IoError a picture cannot be read again or a file cannot be written
 std::vector<std::filesystem::path> write_assembly_pictures(const std::filesystem::path& folder,

@@ -17,6 +17,8 @@
 namespace rejoin::report {
 namespace {
 
+constexpr const char* kMatch = "match.png";
+constexpr const char* kJoined = "joined.png";
 constexpr int kPanel = 420;
 constexpr int kTop = 56;
 constexpr int kPlotHeight = 260;
@@ -195,12 +197,16 @@ std::vector<std::filesystem::path> write_outline_match_pictures(const std::files
     draw_joined(image, a, b, best, verdict);
     draw_curvatures(image, a.outline, b.outline, best);
     const std::vector<std::uint8_t> bytes = outline::assembled_png({a, b}, {{}, best.pose});
-    rejoin::write_file(folder / "joined.png", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    rejoin::write_file(folder / kJoined, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   }
-  write_png(folder / "match.png", image);
-  std::vector<std::filesystem::path> files{folder / "match.png"};
-  if (!result.candidates.empty()) files.push_back(folder / "joined.png");
+  write_png(folder / kMatch, image);
+  std::vector<std::filesystem::path> files{folder / kMatch};
+  if (!result.candidates.empty()) files.push_back(folder / kJoined);
   return files;
+}
+
+std::array<std::filesystem::path, 2> outline_match_pictures(const std::filesystem::path& folder) {
+  return {folder / kMatch, folder / kJoined};
 }
 
 }  // namespace rejoin::report

@@ -1,6 +1,7 @@
 /// Pictures of a pair of flat pieces.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -20,5 +21,8 @@ std::vector<std::filesystem::path> write_outline_match_pictures(const std::files
                                                                 const outline::Piece& b,
                                                                 const outline::PairResult& result,
                                                                 const std::string& verdict);
+
+/// The files that write_outline_match_pictures() may write.
+std::array<std::filesystem::path, 2> outline_match_pictures(const std::filesystem::path& folder);
 
 }  // namespace rejoin::report

@@ -295,6 +295,36 @@ TEST(OutlineAssemble, TellsEveryFileThatItWrites) {
   EXPECT_NE(done.out.find("wrote " + file + "\n"), std::string::npos) << done.out;
 }
 
+TEST(OutlineAssemble, PicturesOfAnEarlierRunDoNotStay) {
+  const BrokenShapes shapes;
+  const std::string pictures = shapes / "pictures";
+  std::filesystem::create_directory(pictures);
+  for (const char* name : {"object_2.png", "object_3.png", "joins_12.png", "object_plan.png"})
+    write_file(pictures + "/" + name, "old");
+  EXPECT_EQ(run({"outline", "assemble", shapes.pieces, "--out", pictures}).exit_code, 0);
+  EXPECT_NE(read_file(pictures + "/object_2.png"), "old");
+  EXPECT_FALSE(std::filesystem::exists(pictures + "/object_3.png"));
+  EXPECT_FALSE(std::filesystem::exists(pictures + "/joins_12.png"));
+  EXPECT_TRUE(std::filesystem::exists(pictures + "/object_plan.png"));
+}
+
+TEST(OutlineMatch, PicturesOfAnEarlierPairDoNotStay) {
+  const TemporaryFolder folder;
+  const std::string square = good_picture(folder);
+  write_file(folder / "circle.svg", "<svg><circle r='20'/></svg>");
+  write_file(folder / "joined.png", "old");
+  const Finished none =
+      run({"outline", "match", square, folder / "circle.svg", "--method", "lcs", "--out", folder / ""});
+  ASSERT_NE(none.out.find("nothing fits"), std::string::npos) << none.out << none.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "joined.png"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "match.png"));
+  std::filesystem::copy_file(square, folder / "joined.png");
+  const Finished over =
+      run({"outline", "match", folder / "joined.png", folder / "circle.svg", "--out", folder / ""});
+  EXPECT_EQ(over.exit_code, 2);
+  EXPECT_NE(over.err.find("joined.png: is read too and would be lost"), std::string::npos) << over.err;
+}
+
 TEST(OutlineAssemble, AFileThatCannotBeUsedIsToldAndTheRestGoesOn) {
   const BrokenShapes shapes;
   const json without = shapes.assembled();
