@@ -16,6 +16,7 @@ namespace {
 
 constexpr int kShift = 8;  // binary places of polygon corners
 constexpr double kMargin = 8.0;
+constexpr double kNumberSize = 0.6;  // of the pieces' numbers
 
 /// A piece where it lies, with its number in the set.
 struct Placed {
@@ -172,6 +173,17 @@ void draw_boundary(cv::Mat& canvas, const Placed& a, const Placed& b, const View
   }
 }
 
+/// The place of a mask that is farthest from its edge: in a bent piece its box's middle may lie outside.
+cv::Point deepest(const cv::Mat& mask) {
+  cv::Mat inside;
+  cv::copyMakeBorder(mask > 127, inside, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(0));
+  cv::Mat depth;
+  cv::distanceTransform(inside, depth, cv::DIST_L2, cv::DIST_MASK_3);
+  cv::Point place;
+  cv::minMaxLoc(depth, nullptr, nullptr, nullptr, &place);
+  return place - cv::Point(1, 1);
+}
+
 /// Which number is which piece, in columns of this height.
 cv::Mat legend(const std::vector<Placed>& members, int height) {
   constexpr int kRow = 18;
@@ -214,9 +226,11 @@ cv::Mat joins_picture(const std::vector<Placed>& members, const std::vector<Asse
   }
   for (const auto& [piece, pose, number] : members) {
     const cv::Rect region = region_of(*piece, pose, view);
-    const cv::Point middle(region.x + region.width / 2 - 10, region.y + region.height / 2 + 6);
-    cv::putText(canvas, std::to_string(number), middle, cv::FONT_HERSHEY_SIMPLEX, 0.6,
-                cv::Scalar(60, 60, 60, 255), 1, cv::LINE_AA);
+    const std::string text = std::to_string(number);
+    const cv::Size size = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, kNumberSize, 1, nullptr);
+    const cv::Point middle = region.tl() + deepest(mask_of(*piece, pose, view, region));
+    cv::putText(canvas, text, middle + cv::Point(-size.width / 2, size.height / 2), cv::FONT_HERSHEY_SIMPLEX,
+                kNumberSize, cv::Scalar(60, 60, 60, 255), 1, cv::LINE_AA);
   }
   cv::hconcat(canvas, legend(members, canvas.rows), canvas);
   return canvas;

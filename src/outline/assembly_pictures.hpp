@@ -24,8 +24,8 @@ std::vector<std::uint8_t> assembled_png(const std::vector<Piece>& pieces, const 
 
 /// Writes into a folder, each file whole or not at all:
 /// - object_1.png ..: the pieces of an object in their places, see assembled_png()
-/// - joins_1.png ..: the same pieces in grey with their common boundaries in red and their numbers, and beside them
-///   which number is which piece
+/// - joins_1.png ..: the same pieces in grey with their common boundaries in red and the pieces' numbers where
+///   each is widest, and beside them which number is which piece
 /// Pictures of further objects that an earlier run has left there are removed.
 /// \return the files
 /// \throws IoError a picture cannot be read again or a file cannot be written

@@ -13,7 +13,9 @@ namespace {
 constexpr int kSquare = 860;  ///< about the side of all cells together, pixels
 constexpr int kLeastCell = 3;
 constexpr int kMostCell = 40;
-constexpr int kNames = 170;  ///< room for names, left and above
+constexpr int kLeastNames = 170;  ///< room for names, left and above
+constexpr int kMostNames = 360;
+constexpr int kNameMargin = 16;
 constexpr int kTitle = 40;
 constexpr int kScale = 250;  ///< room for the scale on the right
 constexpr int kFoot = 104;
@@ -26,9 +28,10 @@ constexpr Colour kUsed{214, 40, 40};
 struct Grid {
   int count = 0;
   int cell = 1;
+  int names = kLeastNames;
 
-  int x(std::size_t column) const { return kNames + static_cast<int>(column) * cell; }
-  int y(std::size_t row) const { return kTitle + kNames + static_cast<int>(row) * cell; }
+  int x(std::size_t column) const { return names + static_cast<int>(column) * cell; }
+  int y(std::size_t row) const { return kTitle + names + static_cast<int>(row) * cell; }
   int side() const { return count * cell; }
   /// Every how many pieces a name has room.
   std::size_t stride() const { return static_cast<std::size_t>(std::ceil((kNameHeight + 3.0) / cell)); }
@@ -36,7 +39,8 @@ struct Grid {
 
 /// A name that reads upwards, ending at (x, y).
 void draw_upwards(Image& image, int x, int y, const std::string& text, const TextStyle& style) {
-  Image label(kNames, static_cast<int>(2.0 * style.height), kPaper);
+  Image label(static_cast<int>(std::ceil(text_width(text, style))) + 2, static_cast<int>(2.0 * style.height),
+              kPaper);
   draw_text(label, 0, 1.4 * style.height, text, style);
   Image turned(label.height, label.width, kPaper);
   for (int row = 0; row < label.height; ++row) {
@@ -51,8 +55,8 @@ void draw_names(Image& image, const Grid& grid, const std::vector<outline::Piece
   const TextStyle above{kNameHeight, kInk};
   for (std::size_t i = 0; i < pieces.size(); i += grid.stride()) {
     const double middle = 0.5 * (grid.cell + kNameHeight);
-    const std::string name = fitted(pieces[i].name, above, kNames - 16);
-    draw_text(image, kNames - 6, grid.y(i) + middle, name, left);
+    const std::string name = fitted(pieces[i].name, above, grid.names - kNameMargin);
+    draw_text(image, grid.names - 6, grid.y(i) + middle, name, left);
     draw_upwards(image, static_cast<int>(grid.x(i) + middle), grid.y(0) - 6, name, above);
   }
 }
@@ -100,15 +104,19 @@ void draw_legend(Image& image, const Grid& grid, double top) {
 
 void write_similarity_picture(const std::filesystem::path& path, const std::vector<outline::Piece>& pieces,
                               const outline::Assembly& assembly) {
-  Grid grid{static_cast<int>(pieces.size()), 1};
+  Grid grid{static_cast<int>(pieces.size())};
   grid.cell = std::clamp(kSquare / std::max(1, grid.count), kLeastCell, kMostCell);
+  for (const outline::Piece& piece : pieces) {
+    const double width = text_width(piece.name, {kNameHeight, kInk});
+    grid.names = std::clamp(static_cast<int>(std::ceil(width)) + kNameMargin, grid.names, kMostNames);
+  }
   double top = 0.0;
   for (const std::vector<double>& row : assembly.similarity)
     for (const double length : row) top = std::max(top, length);
   for (const outline::AssemblyJoin& join : assembly.joins) top = std::max(top, join.contact);
   if (top <= 0.0) top = 1.0;
-  const int width = std::max(820, kNames + grid.side() + kScale);
-  const int height = kTitle + kNames + std::max(kLeastHeight, grid.side()) + kFoot;
+  const int width = std::max(820, grid.names + grid.side() + kScale);
+  const int height = kTitle + grid.names + std::max(kLeastHeight, grid.side()) + kFoot;
   Image image(width, height, kPaper);
   draw_text(image, 20, 30, "Common borders of the pairs", {15, kInk, Align::Left, true});
   draw_cells(image, grid, assembly, top);

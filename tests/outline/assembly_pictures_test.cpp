@@ -133,6 +133,27 @@ TEST_F(AssemblyPictures, NameEveryNumberBesideThePieces) {
   EXPECT_GT(ink_beside(22, 47), second + 20);
 }
 
+TEST_F(AssemblyPictures, NumbersLieOnTheirPieces) {
+  // Two bent pieces around one middle.
+  Piece left;
+  left.name = left.path = "left.csv";
+  left.outline.points = {{0, 0}, {100, 0}, {100, 20}, {20, 20}, {20, 100}, {0, 100}};
+  Piece right = left;
+  right.name = right.path = "right.csv";
+  Assembly assembly;
+  assembly.placements = {{Planar{}, 0, 0.9}, {Planar{M_PI, {130, 130}, false}, 0, 0.9}};
+  write_assembly_pictures(folder_, {left, right}, assembly, {.drawn_side = 400});
+  const cv::Mat joins = cv::imread((folder_ / "joins_1.png").string(), cv::IMREAD_GRAYSCALE);
+  const double scale = 400.0 / 130.0;
+  const auto ink = [&](double x, double y, double side) {
+    const cv::Rect box(static_cast<int>(8 + x * scale), static_cast<int>(8 + y * scale),
+                       static_cast<int>(side * scale), static_cast<int>(side * scale));
+    return cv::countNonZero(joins(box) < 128);
+  };
+  EXPECT_EQ(ink(30, 30, 70), 0) << "the boxes' middles, on no piece";
+  EXPECT_GT(cv::countNonZero(joins(cv::Rect(0, 0, 416, 416)) < 128), 20);
+}
+
 TEST_F(AssemblyPictures, TellThatAPieceIsGone) {
   const std::vector<Piece> pieces = {coloured("a.png", {0, 0, 200}), coloured("b.png", {180, 20, 0})};
   fs::remove(pieces[1].path);

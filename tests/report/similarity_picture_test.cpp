@@ -12,9 +12,9 @@ namespace {
 
 /// A set in which all pairs of the first ten pieces have a candidate, and pieces 1 and 3 are joined.
 struct Drawn {
-  explicit Drawn(std::size_t count) {
+  explicit Drawn(std::size_t count, const std::string& name = "piece_") {
     std::vector<outline::Piece> pieces(count);
-    for (std::size_t i = 0; i < count; ++i) pieces[i].name = "piece_" + std::to_string(i) + ".png";
+    for (std::size_t i = 0; i < count; ++i) pieces[i].name = name + std::to_string(i) + ".png";
     outline::Assembly assembly;
     assembly.similarity.assign(count, std::vector<double>(count, 0.0));
     for (std::size_t i = 0; i < 10; ++i)
@@ -63,6 +63,17 @@ TEST(SimilarityPicture, FramesTheJoinInRedAndNoOther) {
   const cv::Vec3b red(40, 40, 214);
   EXPECT_GT(drawn.count_of({170 + 3 * 40, 210 + 40, 40, 40}, red), 100);
   EXPECT_EQ(drawn.count_of({170 + 4 * 40, 210 + 40, 40, 40}, red), 0);
+}
+
+TEST(SimilarityPicture, ShowsNamesOf35LettersWhole) {
+  const auto ink = [](const std::string& middle) {
+    const Drawn drawn(12, "a find of the year " + middle + " piece ");
+    int count = 0;
+    for (int y = 400; y < 800; ++y)
+      for (int x = 0; x < 350; ++x) count += drawn.image.at<cv::Vec3b>(y, x)[0] < 128 ? 1 : 0;
+    return count;
+  };
+  EXPECT_LT(ink("1111"), ink("8888") - 50);
 }
 
 TEST(SimilarityPicture, NamesPiecesOnBothAxesAlsoInLargeSets) {
