@@ -27,20 +27,24 @@ struct Placed {
 
 /// The common frame -> pixels.
 struct View {
-  glm::dvec2 low{std::numeric_limits<double>::max()};
+  double y = 1.0;                                      ///< -1: the frame's y points up
+  glm::dvec2 low{std::numeric_limits<double>::max()};  ///< of the frame as it is drawn
   double scale = 1.0;
   cv::Size size;
 
-  glm::dvec2 operator()(const glm::dvec2& point) const { return (point - low) * scale + kMargin; }
+  glm::dvec2 drawn(const glm::dvec2& point) const { return {point.x, y * point.y}; }
+  glm::dvec2 operator()(const glm::dvec2& point) const { return (drawn(point) - low) * scale + kMargin; }
 };
 
 View view_of(const std::vector<Placed>& members, const PictureOptions& options) {
   View view;
+  if (std::all_of(members.begin(), members.end(), [](const Placed& placed) { return placed.piece->y_up; }))
+    view.y = -1.0;
   glm::dvec2 high(-std::numeric_limits<double>::max());
   for (const auto& [piece, pose, number] : members) {
     for (const glm::dvec2& p : piece->outline.points) {
-      view.low = glm::min(view.low, pose(p));
-      high = glm::max(high, pose(p));
+      view.low = glm::min(view.low, view.drawn(pose(p)));
+      high = glm::max(high, view.drawn(pose(p)));
     }
   }
   const glm::dvec2 extent = high - view.low;

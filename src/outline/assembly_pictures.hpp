@@ -15,7 +15,7 @@ struct PictureOptions {
   std::size_t most_objects = 16;  ///< drawn, the largest first
 };
 
-/// Placed pieces as one picture, PNG bytes: in the pictures' own colours (pieces from outlines get one each), transparent
+/// Placed pieces as one picture, with y up if all of them have it so, PNG bytes: in the pictures' own colours (pieces from outlines get one each), transparent
 /// outside.
 /// \param poses  of each piece into one frame   \pre pieces is not empty, as many poses as pieces
 /// \throws IoError, InputError  a piece's picture cannot be read again

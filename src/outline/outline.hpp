@@ -86,6 +86,7 @@ struct Piece {
       name;  ///< unique in its set: the file's name, with "#2" and so on for further pieces of one picture
   std::string path;  ///< where it came from; pictures are read again from here when they are shown
   Outline outline;
+  bool y_up = false;  ///< whether its file's y points up, as on maps; pictures and drawings have it down
 };
 
 /// Two stretches of two borders that lie along each other: begin_a forward along A, begin_b backward along B

@@ -24,8 +24,9 @@ struct Window {
   glm::dvec2 low{0.0};
   glm::dvec2 high{0.0};
   double scale = 1.0;  ///< pixels of the sheet for a unit
+  bool y_up = false;
 
-  explicit Window(const Piece& piece) {
+  explicit Window(const Piece& piece) : y_up(piece.y_up) {
     low = high = piece.outline.points[0];
     for (const glm::dvec2& p : piece.outline.points) {
       low = glm::min(low, p);
@@ -36,6 +37,11 @@ struct Window {
     high += around;
     const glm::dvec2 extent = high - low;
     scale = std::min((kCell - 2.0 * kGap) / extent.x, (kCell - kName - 2.0 * kGap) / extent.y);
+  }
+
+  /// The place in the window, pixels.
+  glm::dvec2 operator()(const glm::dvec2& p) const {
+    return glm::dvec2(p.x - low.x, y_up ? high.y - p.y : p.y - low.y) * scale;
   }
 
   cv::Size size() const {
@@ -75,7 +81,7 @@ void draw_border(cv::Mat& image, const std::vector<glm::dvec2>& polygon, const W
   std::vector<cv::Point> points;
   points.reserve(polygon.size());
   for (const glm::dvec2& p : polygon) {
-    const glm::dvec2 at = (p - window.low) * window.scale * static_cast<double>(1 << kShift);
+    const glm::dvec2 at = window(p) * static_cast<double>(1 << kShift);
     points.emplace_back(static_cast<int>(std::lround(at.x)), static_cast<int>(std::lround(at.y)));
   }
   cv::polylines(image, points, true, kRed, 1, cv::LINE_AA, kShift);

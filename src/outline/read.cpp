@@ -158,7 +158,8 @@ PieceSet read_pieces(const std::string& path, const ExtractOptions& options) {
   const std::string name = fs::path(path).filename().string();
   set.pieces.reserve(outlines.size());
   for (std::size_t i = 0; i < outlines.size(); ++i)
-    set.pieces.push_back({i == 0 ? name : fmt::format("{}#{}", name, i + 1), path, std::move(outlines[i])});
+    set.pieces.push_back({i == 0 ? name : fmt::format("{}#{}", name, i + 1), path, std::move(outlines[i]),
+                          kind == Kind::Csv || kind == Kind::GeoJson});
   return set;
 }
 

@@ -40,11 +40,14 @@ struct View {
   glm::dvec2 centre{0.0};
   double scale = 1.0;
   glm::dvec2 middle{0.0};
+  double y = 1.0;  ///< -1: the pieces' y points up
 
-  glm::dvec2 operator()(const glm::dvec2& p) const { return (p - centre) * scale + middle; }
+  glm::dvec2 operator()(const glm::dvec2& p) const {
+    return (p - centre) * glm::dvec2(scale, y * scale) + middle;
+  }
 };
 
-View view_of(const std::vector<Polygon>& shown, int panel) {
+View view_of(const std::vector<Polygon>& shown, bool y_up, int panel) {
   glm::dvec2 low(1e300);
   glm::dvec2 high(-1e300);
   for (const Polygon& polygon : shown) {
@@ -54,13 +57,15 @@ View view_of(const std::vector<Polygon>& shown, int panel) {
     }
   }
   const double longest = std::max({high.x - low.x, high.y - low.y, 1e-300});
-  return {
-      (low + high) / 2.0, (kPanel - 2.0 * kInset) / longest, {(panel + 0.5) * kPanel, kTop + 0.5 * kPanel}};
+  return {(low + high) / 2.0,
+          (kPanel - 2.0 * kInset) / longest,
+          {(panel + 0.5) * kPanel, kTop + 0.5 * kPanel},
+          y_up ? -1.0 : 1.0};
 }
 
 /// A's and B's panels, both at the scale of the larger piece, so that the marked stretches are as long as each other.
 std::array<View, 2> views_apart(const outline::Piece& a, const outline::Piece& b) {
-  std::array<View, 2> views{view_of({a.outline.points}, 0), view_of({b.outline.points}, 1)};
+  std::array<View, 2> views{view_of({a.outline.points}, a.y_up, 0), view_of({b.outline.points}, b.y_up, 1)};
   views[0].scale = views[1].scale = std::min(views[0].scale, views[1].scale);
   return views;
 }
@@ -165,7 +170,7 @@ void draw_curvatures(Image& image, const outline::Outline& a, const outline::Out
 
 void draw_joined(Image& image, const outline::Piece& a, const outline::Piece& b,
                  const outline::JoinCandidate& best, const std::string& verdict) {
-  const View joined = view_of({a.outline.points, moved(b.outline.points, best.pose)}, 2);
+  const View joined = view_of({a.outline.points, moved(b.outline.points, best.pose)}, a.y_up && b.y_up, 2);
   draw_piece(image, joined, a.outline, {}, kFillA);
   draw_piece(image, joined, b.outline, best.pose, kFillB);
   const Polygon on_a = stretch(a.outline.points, best.boundary.begin_a, best.boundary.length, kSamples);

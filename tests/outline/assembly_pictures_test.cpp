@@ -133,6 +133,39 @@ TEST_F(AssemblyPictures, NameEveryNumberBesideThePieces) {
   EXPECT_GT(ink_beside(22, 47), second + 20);
 }
 
+TEST_F(AssemblyPictures, ShowNorthUp) {
+  // Narrow in the north, wide in the south.
+  Piece piece;
+  piece.name = piece.path = "a.csv";
+  piece.outline.points = {{0, 0}, {100, 0}, {60, 100}, {40, 100}};
+  const auto widths = [](const cv::Mat& image, const cv::Scalar& low, const cv::Scalar& high) {
+    cv::Mat shown;
+    cv::inRange(image, low, high, shown);
+    const cv::Rect box = cv::boundingRect(shown);
+    const auto at = [&](double share) {
+      return cv::countNonZero(shown.row(box.y + static_cast<int>(share * box.height)));
+    };
+    return std::pair(at(0.1), at(0.9));
+  };
+  for (const bool up : {true, false}) {
+    piece.y_up = up;
+    const cv::Mat object = cv::imdecode(assembled_png({piece}, {Planar{}}), cv::IMREAD_UNCHANGED);
+    const auto [top, bottom] = widths(object, {0, 0, 0, 128}, {255, 255, 255, 255});
+    EXPECT_EQ(top < bottom, up);
+    write_pieces_picture(folder_ / "pieces.png", {piece});
+    const cv::Mat sheet = cv::imread((folder_ / "pieces.png").string());
+    cv::Mat red;
+    cv::inRange(sheet, cv::Scalar(0, 0, 180), cv::Scalar(140, 140, 255), red);
+    const cv::Rect box = cv::boundingRect(red);
+    const auto ends = [&](int y) {
+      std::vector<cv::Point> points;
+      cv::findNonZero(red(cv::Rect(box.x, y - 4, box.width, 9)), points);
+      return cv::boundingRect(points).width;
+    };
+    EXPECT_EQ(ends(box.y + box.height / 10) < ends(box.y + box.height * 9 / 10), up);
+  }
+}
+
 TEST_F(AssemblyPictures, NumbersLieOnTheirPieces) {
   // Two bent pieces around one middle.
   Piece left;

@@ -204,6 +204,15 @@ TEST_F(Read, GeoJsonPolygonsWithHoles) {
   EXPECT_DOUBLE_EQ(signed_area(set.pieces[1].outline.points), 1.0);
 }
 
+TEST_F(Read, MapsAndTablesHaveYUpAndDrawingsDown) {
+  EXPECT_TRUE(read_pieces(write("a.csv", "0,0\n1,0\n1,1\n0,1\n")).pieces[0].y_up);
+  EXPECT_TRUE(
+      read_pieces(write("a.geojson", R"({"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1],[0,1]]]})"))
+          .pieces[0]
+          .y_up);
+  EXPECT_FALSE(read_pieces(write("a.svg", "<svg><rect width='2' height='2'/></svg>")).pieces[0].y_up);
+}
+
 TEST_F(Read, BrokenGeoJsonIsRefused) {
   expect_refusal("a.geojson", "{\"type\":", "no JSON");
   expect_refusal("b.geojson", R"({"type":"Point","coordinates":[1,2]})", "no polygon");

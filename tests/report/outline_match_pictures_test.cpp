@@ -65,6 +65,28 @@ TEST(OutlineMatchPictures, TheBoundaryOfAPieceUpsideDownIsMarkedWhereItIs) {
   EXPECT_NEAR(width_of(drawn("join", turned_over), 1, mark), marked, 2);
 }
 
+TEST(OutlineMatchPictures, MapsAreDrawnWithNorthUp) {
+  outline::Piece a = rectangle("a", 200, 200);
+  a.outline.points = {{0, 0}, {100, 0}, {60, 100}, {40, 100}};
+  const auto top_is_narrow = [&](bool up) {
+    a.y_up = up;
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("rejoin-outline-north-" + std::to_string(getpid()));
+    std::filesystem::create_directories(folder);
+    write_outline_match_pictures(folder, a, a, {{upright()}}, "join");
+    const cv::Mat image = cv::imread((folder / "match.png").string());
+    std::filesystem::remove_all(folder);
+    const auto width = [&](int y) {
+      int found = 0;
+      for (int x = 0; x < 420; ++x) found += image.at<cv::Vec3b>(y, x) == cv::Vec3b(178, 205, 226) ? 1 : 0;
+      return found;
+    };
+    return width(56 + 60) < width(56 + 360);
+  };
+  EXPECT_TRUE(top_is_narrow(true));
+  EXPECT_FALSE(top_is_narrow(false));
+}
+
 TEST(OutlineMatchPictures, TheTitleIsTheVerdict) {
   const cv::Mat image = drawn("no join");
   Image expected(420, 50, kPaper);
