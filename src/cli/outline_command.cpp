@@ -34,11 +34,13 @@ const Choices<OutlineMethod> kMethods{{"auto", OutlineMethod::Automatic},
 }  // namespace
 
 void add_outline_method(CLI::App& app, OutlineMethod& method) {
-  add_choice(app, "--method", method, kMethods, "how (auto)")->group("Search");
+  add_choice(app, "--method", method, kMethods, "how borders are compared; auto is multiscale (auto)")
+      ->group("Search");
 }
 
 void add_calibration(CLI::App& app, std::optional<std::string>& calibration) {
-  app.add_option("--calibration", calibration, "numbers from outline calibrate, for multiscale")
+  app.add_option("--calibration", calibration,
+                 "numbers from outline calibrate, for multiscale (the usual ones)")
       ->type_name("FILE")
       ->group("Input");
 }

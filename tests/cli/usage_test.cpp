@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <regex>
 #include <sstream>
 
 #include "core/version.hpp"
@@ -177,6 +178,18 @@ TEST(Help, OfACommandWithinACommandNamesTheProgram) {
     const Finished finished = run({"outline", command, "--help"});
     EXPECT_EQ(finished.out.rfind("Usage: rejoin outline " + std::string(command) + " ", 0), 0U)
         << finished.out;
+  }
+}
+
+TEST(Help, OfOutlineCommandsTellsRangesOfNumbersAndDefaultsOfWords) {
+  for (const char* command : {"match", "assemble", "calibrate", "shatter"}) {
+    std::istringstream help(run({"outline", command, "--help"}).out);
+    for (std::string line; std::getline(help, line);) {
+      const bool number = std::regex_search(line, std::regex("^  --[a-z]+ (N|PX) "));
+      EXPECT_TRUE(!number || std::regex_search(line, std::regex("[0-9]+ to [0-9]+"))) << line;
+      const bool word = std::regex_search(line, std::regex("^  --[a-z]+ WORD "));
+      EXPECT_TRUE(!word || line.back() == ')') << line;
+    }
   }
 }
 
