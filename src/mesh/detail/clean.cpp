@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "core/error.hpp"
 #include "core/words.hpp"
@@ -70,25 +69,44 @@ void require_area(const Mesh& mesh, const std::string& name) {
       "remove parts far from the rest, or export the scan again");
 }
 
-/// Box of the bulk of the points: on each axis between the shares 0.02 and 0.98 of up to some 10,000 of them, so that a few
-/// points anywhere (a reader's zeros for missing ones) move no side of it far.
-std::pair<glm::dvec3, glm::dvec3> box_of_most(const std::vector<glm::dvec3>& points) {
+struct PointBox {
+  glm::dvec3 low;
+  glm::dvec3 high;
+
+  double size() const { return glm::length(high - low); }
+};
+
+PointBox box_of_all(const std::vector<glm::dvec3>& points) {
+  PointBox box{points.front(), points.front()};
+  for (const glm::dvec3& point : points) box = {glm::min(box.low, point), glm::max(box.high, point)};
+  return box;
+}
+
+/// On each axis between the shares 0.02 and 0.98 of up to some 10,000 of the points.
+PointBox box_of_most(const std::vector<glm::dvec3>& points) {
   constexpr std::size_t kSampled = 10000;
   constexpr double kOutside = 0.02;
   const std::size_t step = 1 + points.size() / kSampled;
-  glm::dvec3 low;
-  glm::dvec3 high;
+  PointBox box{};
   std::vector<double> values;
   for (int axis = 0; axis < 3; ++axis) {
     values.clear();
     for (std::size_t i = 0; i < points.size(); i += step) values.push_back(points[i][axis]);
     const auto cut = static_cast<std::ptrdiff_t>(kOutside * static_cast<double>(values.size()));
     std::nth_element(values.begin(), values.begin() + cut, values.end());
-    low[axis] = values[static_cast<std::size_t>(cut)];
+    box.low[axis] = values[static_cast<std::size_t>(cut)];
     std::nth_element(values.begin(), values.end() - 1 - cut, values.end());
-    high[axis] = *(values.end() - 1 - cut);
+    box.high[axis] = *(values.end() - 1 - cut);
   }
-  return {low, high};
+  return box;
+}
+
+/// Box of the points but for a few far from the rest, which some writers put at zero for those that they could not measure.
+PointBox box_of_piece(const std::vector<glm::dvec3>& points) {
+  constexpr double kFar = 4.0;
+  const PointBox all = box_of_all(points);
+  const PointBox most = box_of_most(points);
+  return all.size() > kFar * most.size() ? most : all;
 }
 
 /// Floats have wide steps far from the origin: tells where they come near the distance of the points, refuses where they exceed it.
@@ -96,11 +114,11 @@ void check_steps(const Soup& soup, const std::string& name, std::vector<std::str
   constexpr double kTold = 0.1;
   const auto is_float = [](const glm::dvec3& p) { return glm::dvec3(glm::vec3(p)) == p; };
   if (!std::all_of(soup.points.begin(), soup.points.end(), is_float)) return;
-  const auto [low, high] = box_of_most(soup.points);
-  const glm::dvec3 furthest = glm::max(glm::abs(low), glm::abs(high));
+  const PointBox box = box_of_piece(soup.points);
+  const glm::dvec3 furthest = glm::max(glm::abs(box.low), glm::abs(box.high));
   const auto largest = static_cast<float>(std::max({furthest.x, furthest.y, furthest.z}));
   const double step = static_cast<double>(std::nextafter(largest, 2 * largest) - largest);
-  const double apart = glm::length(high - low) / std::sqrt(static_cast<double>(soup.points.size()));
+  const double apart = box.size() / std::sqrt(static_cast<double>(soup.points.size()));
   if (!(apart > 0) || step <= kTold * apart) return;
   const std::string what = fmt::format(
       "its coordinates are floats, which have steps of {:.3g} so far from the origin, and its points lie "
@@ -115,12 +133,12 @@ void check_steps(const Soup& soup, const std::string& name, std::vector<std::str
 /// stay as they are, else the box's centre on a coarse binary grid, so that subtracting it from float
 /// coordinates is exact.
 glm::dvec3 choose_origin(const std::vector<glm::dvec3>& points) {
-  const auto [low, high] = box_of_most(points);
-  const double size = glm::length(high - low);
-  const glm::dvec3 furthest = glm::max(glm::abs(low), glm::abs(high));
+  const PointBox box = box_of_piece(points);
+  const double size = box.size();
+  const glm::dvec3 furthest = glm::max(glm::abs(box.low), glm::abs(box.high));
   if (size <= 0 || std::max({furthest.x, furthest.y, furthest.z}) <= 4 * size) return glm::dvec3(0.0);
   const double grid = std::exp2(std::floor(std::log2(size)));
-  return glm::round((low + high) / (2 * grid)) * grid;
+  return glm::round((box.low + box.high) / (2 * grid)) * grid;
 }
 
 Mesh to_mesh(const Soup& soup) {
