@@ -2,6 +2,8 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -31,6 +33,40 @@ class RunTest : public ::testing::Test {
     folder_ = pattern;
   }
   void TearDown() override { fs::remove_all(folder_); }
+
+  /// The run's files in another folder, as they are while a writer has done a second pair and is stopped.
+  fs::path stopped_run(const std::vector<std::string>& endings) const {
+    make_run();
+    store::Run run = store::Run::write(folder_);
+    run.save(pair_of(run.fragments(), 1, 2), {candidate_});
+    const fs::path copy = folder_ / "copy";
+    fs::create_directory(copy);
+    for (const std::string& ending : endings) {
+      fs::copy_file(folder_ / (kFileName + ending), copy / (kFileName + ending));
+      fs::permissions(copy / (kFileName + ending), fs::perms(0444));
+    }
+    return copy;
+  }
+
+  /// Number of the pairs that a user reads who may write nothing there; -1: refused.
+  int pairs_without_writing(const fs::path& run) const {
+    fs::permissions(folder_, fs::perms(0755));
+    fs::permissions(run, fs::perms(0555));
+    const pid_t reader = fork();
+    if (reader == 0) {
+      int count = -1;
+      try {
+        if (geteuid() == 0 && setuid(65534) != 0) _exit(254);  // root may write everywhere
+        count = static_cast<int>(store::Run::open(run).pairs().size());
+      } catch (const StoreError&) {
+      }
+      _exit(count < 0 ? 255 : count);
+    }
+    int status = 0;
+    waitpid(reader, &status, 0);
+    fs::permissions(run, fs::perms(0755));
+    return WEXITSTATUS(status) == 255 ? -1 : WEXITSTATUS(status);
+  }
 
   /// A run of b.ply, a.ply and c.ply with the pair (a, b) done.
   void make_run() const {
@@ -207,6 +243,18 @@ TEST_F(RunTest, ReaderSeesWhatWasThereWhenItOpened) {
   EXPECT_EQ(reader.fragments().size(), 3U);
   EXPECT_EQ(reader.pairs().size(), 1U);
   EXPECT_EQ(store::Run::open(folder_).fragments().size(), 2U);
+}
+
+TEST_F(RunTest, WhoMayNotWriteReadsTheNewestResultsOrIsRefused) {
+  const fs::path run = stopped_run({"", "-wal", "-shm"});
+  EXPECT_EQ(pairs_without_writing(run), 2);
+  fs::remove(run / (std::string(kFileName) + "-shm"));
+  EXPECT_EQ(pairs_without_writing(run), -1) << "the journal cannot be read without a file beside it";
+}
+
+TEST_F(RunTest, WhoMayNotWriteReadsARunThatIsWhole) {
+  make_run();
+  EXPECT_EQ(pairs_without_writing(folder_), 1);
 }
 
 TEST_F(RunTest, OtherFilesAreRefused) {

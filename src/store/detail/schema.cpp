@@ -81,9 +81,21 @@ const char* mend_of(int code) {
     case SQLITE_CORRUPT:
     case SQLITE_NOTADB:
       return "move the file away and run rejoin batch again";
+    case SQLITE_CANTOPEN:
+    case SQLITE_READONLY:
+      return "check the folder and its permissions; a run whose newest results are still in run.sqlite-wal "
+             "is "
+             "read only where files can be made, so copy its folder to such a place";
     default:
       return "check the folder and its permissions";
   }
+}
+
+/// Whether results lie beside the database that are not in it yet.
+bool has_journal(const std::filesystem::path& file) {
+  std::error_code absent;
+  const std::uintmax_t size = std::filesystem::file_size(file.string() + "-wal", absent);
+  return !absent && size > 0;
 }
 
 }  // namespace
@@ -116,14 +128,16 @@ std::filesystem::path database_file(const std::filesystem::path& folder) {
 }
 
 std::string reading_address(const std::filesystem::path& file) {
+  std::error_code ignored;
+  const std::filesystem::path real = std::filesystem::weakly_canonical(file, ignored);
   std::string address = "file:";
-  for (const char c : std::filesystem::absolute(file).string()) {
+  for (const char c : real.string()) {
     const auto byte = static_cast<unsigned char>(c);
     const bool plain = std::isalnum(byte) != 0 || c == '/' || c == '.' || c == '-' || c == '_';
     address += plain ? std::string(1, c) : fmt::format("%{:02x}", byte);
   }
-  const bool writable = access(std::filesystem::absolute(file).parent_path().c_str(), W_OK) == 0;
-  return address + (writable ? "?mode=ro" : "?immutable=1");
+  const bool writable = access(real.parent_path().c_str(), W_OK) == 0;
+  return address + (writable || has_journal(real) ? "?mode=ro" : "?immutable=1");
 }
 
 void fail(const SQLite::Exception& error, const std::string& path) {

@@ -26,7 +26,8 @@ void require_schema(SQLite::Database& database, const std::string& path);
 std::filesystem::path database_file(const std::filesystem::path& folder);
 
 /// What SQLite is to open (with OPEN_URI) so that nothing is changed.  A database in WAL mode wants to write files beside it even for
-/// reading; where nobody may write, it can be read as it is, for then nobody changes it either.
+/// reading; where we may not write it is read as it is, unless results are still in the journal beside it: then somebody writes
+/// or was stopped, and SQLite reads both by the files that are there, or refuses.
 std::string reading_address(const std::filesystem::path& file);
 
 /// SQLite's error as ours, with a mend that fits.
