@@ -17,22 +17,23 @@ namespace rejoin::store {
 namespace fs = std::filesystem;
 namespace {
 
-/// Pairs and candidates of the attached run, its ids turned into ours by the fragments' names.
+/// Pairs of the attached run, its ids turned into ours by the fragments' names.  No failure takes the place of a result.
 constexpr const char* kCopyPairs = R"sql(
 INSERT OR REPLACE INTO main.pair (a, b, stage, evidence, score, verdict, seconds, error, result)
   SELECT x.id, y.id, p.stage, p.evidence, p.score, p.verdict, p.seconds, p.error, p.result
   FROM part.pair p
   JOIN part.fragment u ON u.id = p.a JOIN main.fragment x ON x.name = u.name
   JOIN part.fragment v ON v.id = p.b JOIN main.fragment y ON y.name = v.name
+  WHERE p.stage <> 'failed' OR NOT EXISTS (SELECT 1 FROM main.pair q WHERE q.a = x.id AND q.b = y.id)
 )sql";
 
-/// Pairs of the attached run that ours lacks, by the fragments' names.
+/// Pairs of the attached run that ours lacks, or of which it has a failure only, by the fragments' names.
 constexpr const char* kCountLost = R"sql(
 SELECT count(*) FROM part.pair p
   JOIN part.fragment u ON u.id = p.a JOIN part.fragment v ON v.id = p.b
   WHERE NOT EXISTS (SELECT 1 FROM main.pair q
     JOIN main.fragment x ON x.id = q.a JOIN main.fragment y ON y.id = q.b
-    WHERE x.name = u.name AND y.name = v.name)
+    WHERE x.name = u.name AND y.name = v.name AND (q.stage <> 'failed' OR p.stage = 'failed'))
 )sql";
 
 std::string copy_candidates() {
@@ -41,6 +42,11 @@ std::string copy_candidates() {
       "JOIN part.fragment u ON u.id = c.a JOIN main.fragment x ON x.name = u.name "
       "JOIN part.fragment v ON v.id = c.b JOIN main.fragment y ON y.name = v.name",
       detail::kCandidateColumns);
+}
+
+/// Which of two runs knows more of a fragment: one that could use it, then one that looked at it.
+int told_by(FragmentState state) {
+  return state == FragmentState::Ready ? 2 : state == FragmentState::Bad ? 1 : 0;
 }
 
 struct Whole {
@@ -67,7 +73,7 @@ Whole survey(const std::vector<fs::path>& runs) {
                          fmt::format("knows another content of {} than the runs before it", fragment.name),
                          "run the shards again that have the older file");
       }
-      if (known.state == FragmentState::Waiting) known = fragment;
+      if (told_by(fragment.state) > told_by(known.state)) known = fragment;
     }
   }
   return whole;

@@ -13,7 +13,8 @@ struct Merged {
   std::size_t failed = 0;  ///< of the pairs
 };
 
-/// Copies all fragments and pairs of the runs into one.  Pairs that several have are taken once; fragments are numbered by name, as a single run
+/// Copies all fragments and pairs of the runs into one.  Pairs that several have are taken once, a result before a
+/// failure; fragments are numbered by name, as a single run
 /// over all of them numbers them.  The whole replaces what the output held, completely or not at all; who
 /// reads the output meanwhile goes on reading what it held.
 /// \param runs    folders of runs, at least one, made with the same parameters; the output may be one of them

@@ -50,6 +50,21 @@ class Merge : public ::testing::Test {
     return folder_ / name;
   }
 
+  /// A shard that could not use the first fragment.
+  fs::path failed_shard(const std::string& name, const std::vector<std::string>& fragments) const {
+    shard(name, fragments, 0);
+    store::Run run = store::Run::write(folder_ / name);
+    Fragment bad = run.fragments()[0];
+    bad.state = FragmentState::Bad;
+    bad.error = "a: out of memory";
+    run.save(bad);
+    Pair failed = run.pairs().at(0);
+    failed.stage = Stage::Failed;
+    failed.error = bad.error;
+    run.save(failed, {});
+    return folder_ / name;
+  }
+
   fs::path output() const { return folder_ / "whole"; }
 
   fs::path folder_;
@@ -82,6 +97,20 @@ TEST_F(Merge, FragmentsAreNumberedByNameAndTakenFromWhoLookedAtThem) {
 TEST_F(Merge, PairThatTwoShardsHaveIsTakenOnce) {
   const Merged merged = merge({shard("x", {"a", "b"}, 0.5), shard("y", {"a", "b"}, 0.5)}, output());
   EXPECT_EQ(merged.pairs, 1U);
+  EXPECT_EQ(store::Run::open(output()).candidates(1, 2).size(), 2U);
+}
+
+TEST_F(Merge, ResultOfOneRunOutlivesTheFailureOfAnother) {
+  const fs::path good = shard("x", {"a", "b"}, 0.5);
+  const fs::path bad = failed_shard("y", {"a", "b"});
+  for (const std::vector<fs::path>& runs : {std::vector{good, bad}, std::vector{bad, good}}) {
+    EXPECT_EQ(merge(runs, output()).failed, 0U);
+    const store::Run whole = store::Run::open(output());
+    EXPECT_EQ(whole.pairs().at(0).score, 0.5);
+    EXPECT_EQ(whole.candidates(1, 2).size(), 2U);
+    EXPECT_EQ(whole.fragments()[0].state, FragmentState::Ready);
+  }
+  EXPECT_THROW(merge({bad}, output()), StoreError) << "the output's result would be lost";
   EXPECT_EQ(store::Run::open(output()).candidates(1, 2).size(), 2U);
 }
 
