@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
 #include <optional>
 
@@ -77,16 +76,34 @@ void require_shard(SQLite::Database& database, const std::string& shard, const s
                    fmt::format("give shard {} a folder of its own", shard));
 }
 
-/// A folder of other scans by mistake would empty the run.  A shard may get all others, when scans came or went.
+bool has_results(SQLite::Database& database) {
+  return database.execAndGet("SELECT EXISTS (SELECT 1 FROM pair WHERE stage <> 'failed')").getInt() != 0;
+}
+
+/// A folder of other scans by mistake would empty the run, and many objects have a 1.ply and a 2.ply.  A shard may get all others,
+/// when scans came or went.
 void require_some_known(SQLite::Database& database, const std::map<std::string, Fragment>& wanted,
                         const std::string& shard, const std::string& path) {
-  if (!shard.empty() || !has_pairs(database)) return;
   const std::vector<Fragment> known = detail::all_fragments(database);
-  const auto is_wanted = [&wanted](const Fragment& fragment) { return wanted.count(fragment.name) != 0; };
-  if (std::any_of(known.begin(), known.end(), is_wanted)) return;
-  throw StoreError(path,
-                   fmt::format("is of other scans: {} and {} more", known.front().name, known.size() - 1),
-                   "give the folder of those scans, or another --out");
+  std::size_t named = 0;
+  std::size_t same = 0;
+  for (const Fragment& fragment : known) {
+    const auto found = wanted.find(fragment.name);
+    if (found == wanted.end()) continue;
+    ++named;
+    same += found->second.hash == fragment.hash ? 1 : 0;
+  }
+  if (named == 0 && shard.empty() && has_pairs(database)) {
+    throw StoreError(path,
+                     fmt::format("is of other scans: {} and {} more", known.front().name, known.size() - 1),
+                     "give the folder of those scans, or another --out");
+  }
+  if (named > 0 && same == 0 && has_results(database)) {
+    throw StoreError(path,
+                     fmt::format("is of other scans of the same names: {} and {} more", known.front().name,
+                                 known.size() - 1),
+                     "give another --out, or remove this file if all scans were made anew");
+  }
 }
 
 /// Removes what is no longer wanted, and takes what stays off `wanted`.

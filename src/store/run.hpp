@@ -70,7 +70,8 @@ class Run {
   /// stay.  A fragment is the same if its name and hash are; its path is brought up to date.  Pairs of copies() do not belong.
   /// \param fragments  name, path and hash are used
   /// \param shard      as shard() tells it
-  /// \throws StoreError also if the database has pairs of another shard, or of other scans altogether, for they would be lost
+  /// \throws StoreError also if the database has pairs of another shard, or of other scans or contents altogether, for they
+  ///         would be lost
   Forgotten begin(const Parameters& parameters, const std::vector<Fragment>& fragments,
                   const std::string& shard = "");
 

@@ -185,8 +185,27 @@ TEST_F(RunTest, OtherScansAltogetherAreRefusedSoThatNoPairIsLost) {
   store::Run run = store::Run::write(folder_);
   EXPECT_THROW(run.begin(kParameters, {fragment("x.ply", "11"), fragment("y.ply", "22")}), StoreError);
   EXPECT_EQ(run.done().size(), 1U);
-  run.begin(kParameters, {fragment("a.ply", "44"), fragment("y.ply", "22")});
-  EXPECT_TRUE(run.done().empty()) << "a.ply was scanned again";
+}
+
+TEST_F(RunTest, OtherContentsUnderTheSameNamesAreRefusedSoThatNoPairIsLost) {
+  make_run();
+  store::Run run = store::Run::write(folder_);
+  const std::vector<Fragment> others = {fragment("a.ply", "44"), fragment("b.ply", "55"),
+                                        fragment("y.ply", "11")};
+  EXPECT_THROW(run.begin(kParameters, others), StoreError);
+  EXPECT_EQ(run.done().size(), 1U);
+  run.begin(kParameters, {fragment("a.ply", "44"), three_[0]});
+  EXPECT_TRUE(run.done().empty()) << "a.ply was scanned again, b.ply is the same";
+  EXPECT_NO_THROW(run.begin(kParameters, others)) << "there is nothing to lose";
+}
+
+TEST_F(RunTest, ScansThatWereAllUnreadableMayAllChange) {
+  make_run();
+  store::Run run = store::Run::write(folder_);
+  Pair failed = run.pairs().at(0);
+  failed.stage = Stage::Failed;
+  run.save(failed, {});
+  EXPECT_NO_THROW(run.begin(kParameters, {fragment("a.ply", "44"), fragment("b.ply", "55")}));
 }
 
 TEST_F(RunTest, ChangedParametersForgetAllPairs) {
