@@ -161,10 +161,13 @@ class MatchCommand final : public Command {
     std::vector<std::filesystem::path> files;
     if (!result.cancelled) {
       files = report::write_match_outputs(*out_, a, b, result);
-    } else if (!result.candidates.empty()) {
-      files.emplace_back(std::filesystem::path(*out_) / mesh::kJoinedPly);
-      mesh::save_scene(files[0],
-                       {{path_a_, &a.surface, Rigid{}}, {path_b_, &b.surface, result.candidates[0].pose}});
+    } else {
+      report::remove_match_outputs(*out_);  // an earlier match's would be taken for this one's
+      if (!result.candidates.empty()) {
+        files.emplace_back(std::filesystem::path(*out_) / mesh::kJoinedPly);
+        mesh::save_scene(files[0],
+                         {{path_a_, &a.surface, Rigid{}}, {path_b_, &b.surface, result.candidates[0].pose}});
+      }
     }
     for (const std::filesystem::path& file : files) console.result(fmt::format("wrote {}\n", file.string()));
   }

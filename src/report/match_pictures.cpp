@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <system_error>
+
 #include "core/files.hpp"
 #include "mesh/save.hpp"
 #include "report/convergence.hpp"
@@ -12,6 +15,10 @@
 
 namespace rejoin::report {
 namespace {
+
+constexpr const char* kConvergence = "convergence.svg";
+constexpr const char* kSheet = "match.png";
+constexpr std::array kDepthMaps{"depth_a.png", "depth_b.png", "depth_difference.png"};
 
 std::string file_name(const std::string& path) {
   return std::filesystem::path(path).filename().string();
@@ -52,8 +59,8 @@ std::vector<std::filesystem::path> write_depth_maps(const std::filesystem::path&
                                                     const match::JointError& error, int resolution) {
   const JointMaps maps = make_maps(joint, resolution);
   const MapWindow window = covered_window({&maps.a, &maps.b}, 4);
-  std::vector<std::filesystem::path> files{folder / "depth_a.png", folder / "depth_b.png",
-                                           folder / "depth_difference.png"};
+  std::vector<std::filesystem::path> files{folder / kDepthMaps[0], folder / kDepthMaps[1],
+                                           folder / kDepthMaps[2]};
   write_png(files[0], draw_heights(maps.a, maps, window, "A  " + name_a + ", seen from B"));
   write_png(files[1], draw_heights(maps.b, maps, window, "B  " + name_b + ", seen from A, mirrored"));
   write_png(files[2], draw_difference(maps, error, window));
@@ -85,20 +92,28 @@ std::string difference_note(const match::JointError& error, bool overlap) {
                      short_number(error.slope), short_number(error.depth));
 }
 
+void remove_match_outputs(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  for (const char* name : {kConvergence, kSheet, mesh::kJoinedGlb, mesh::kJoinedPly})
+    std::filesystem::remove(folder / name, ignored);
+  for (const char* name : kDepthMaps) std::filesystem::remove(folder / name, ignored);
+}
+
 std::vector<std::filesystem::path> write_match_outputs(const std::filesystem::path& folder,
                                                        const match::Fragment& a, const match::Fragment& b,
                                                        const match::Result& result,
                                                        const MatchOutputOptions& options) {
   require_writable_folder(folder);
+  if (result.candidates.empty()) remove_match_outputs(folder);
   const std::string name_a = file_name(a.path);
   const std::string name_b = file_name(b.path);
-  std::vector<std::filesystem::path> files{folder / "convergence.svg"};
+  std::vector<std::filesystem::path> files{folder / kConvergence};
   write_file(files[0], convergence_svg(result, name_a + " and " + name_b));
   if (result.candidates.empty()) return files;
   const match::Candidate& best = result.candidates.front();
   const Joint joint =
       make_joint(a.surface, b.surface, best.pose, view_direction(best), std::max(a.resolution, b.resolution));
-  files.push_back(folder / "match.png");
+  files.push_back(folder / kSheet);
   const std::string backend = std::string(zbuffer::name_of(result.backend)) + " (" + result.renderer + ")";
   write_png(files.back(), draw_match_sheet(joint, {name_a, name_b, result.verdict, best, backend}));
   for (const auto& file : write_depth_maps(folder, joint, name_a, name_b, best.error, options.map_resolution))

@@ -17,6 +17,9 @@ struct MatchOutputOptions {
 /// \param overlap  whether the maps of the picture have a pixel in common
 std::string difference_note(const match::JointError& error, bool overlap);
 
+/// Removes from the folder what write_match_outputs() writes.
+void remove_match_outputs(const std::filesystem::path& folder);
+
 /// Writes the pictures and files of the best candidate:
 ///   match.png              the fragments opened, joined, their faces coloured by gap, a cut through the
 /// joint
@@ -25,7 +28,8 @@ std::string difference_note(const match::JointError& error, bool overlap);
 ///                          their slopes differ
 ///   convergence.svg        the course of an annealing search; of others the candidates' scores
 ///   joined.glb, joined.ply A and B moved onto it, in A's file coordinates, each in its own colour
-/// Each file is written whole or not at all.  Without a candidate only convergence.svg is written.
+/// Each file is written whole or not at all.  Without a candidate only convergence.svg is written, and
+/// what an earlier match left of the others is removed.
 /// \return the files, in the order in which they were written
 /// \throws IoError the folder or a file cannot be written
 std::vector<std::filesystem::path> write_match_outputs(const std::filesystem::path& folder,

@@ -137,13 +137,17 @@ TEST_F(MatchCommand, MissingBackendIsOneLineAndExitsWithOne) {
 // The search is made far longer than the time until the signal comes; the limit of CTest ends a run that
 // ignores it.
 TEST_F(MatchCommand, InterruptWritesWhatWasFoundAndExitsWith130) {
-  Running running({"match", a, b, "--json", json, "--verbose", "--search", "esa", "--chains", "256",
-                   "--resolution", "512"});
+  std::filesystem::create_directory(folder / "result");
+  for (const char* earlier : {"result/match.png", "result/joined.glb"}) write_file(folder / earlier, "x");
+  Running running({"match", a, b, "--json", json, "--out", folder / "result", "--verbose", "--search", "esa",
+                   "--chains", "256", "--resolution", "512"});
   ASSERT_TRUE(running.wait_for_stderr("b.ply: "));
   running.interrupt();
   const Finished finished = running.finish();
   EXPECT_EQ(finished.exit_code, 130) << finished.err;
   EXPECT_EQ(ordered_json::parse(read_file(json))["search"]["interrupted"], true);
+  EXPECT_FALSE(std::filesystem::exists(folder / "result/match.png")) << "would be taken for this match's";
+  EXPECT_FALSE(std::filesystem::exists(folder / "result/joined.glb"));
 }
 
 // A pipe that nobody writes to holds the program inside the loader; opening our end waits until it is there.

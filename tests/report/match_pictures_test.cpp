@@ -187,9 +187,14 @@ TEST(MatchOutputs, AreWholeAndReadable) {
 TEST(MatchOutputs, WithoutACandidateOnlyTheSearchIsShown) {
   const Folder folder;
   const Planted pair = planted_pair(10);
+  const auto earlier = write_match_outputs(folder.path(), pair.a, pair.b, result_with(lifted(pair, 4)), {32});
+  std::ofstream(folder.path() / "notes.txt") << "the user's own";
   const auto files = write_match_outputs(folder.path(), pair.a, pair.b, match::Result{});
   ASSERT_EQ(files.size(), 1U);
   EXPECT_EQ(files[0].filename(), "convergence.svg");
+  for (const auto& file : earlier)
+    EXPECT_EQ(std::filesystem::exists(file), file == files[0]) << file << " would be taken for this match's";
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "notes.txt"));
 }
 
 TEST(MatchOutputs, FragmentsThatDoNotTouchAreDrawnToo) {
