@@ -99,7 +99,7 @@ class Reader {
       const std::string place = fmt::format("\"poses\".\"{}\"", name);
       const std::size_t number = number_of(name, place);
       const std::optional<Rigid> pose = rigid_from_json(rows);
-      if (!pose) fail(place + " is no 4 x 4 matrix of a rotation and a shift");
+      if (!pose) fail(fmt::format("{} {}", place, kNoRigid));
       if (std::any_of(result.begin(), result.end(), [&](const auto& p) { return p.first == number; }))
         fail(place + " is given twice");
       result.emplace_back(number, *pose);

@@ -28,7 +28,7 @@ Rigid read_pose(const std::string& path) {
   const ordered_json& rows = json.is_object() && json.contains("pose") ? json["pose"] : json;
   const std::optional<Rigid> pose = rigid_from_json(rows);
   if (!pose) {
-    throw InputError(path, "\"pose\" is no 4 x 4 matrix of a rotation and a shift", kMend);
+    throw InputError(path, fmt::format("\"pose\" {}", kNoRigid), kMend);
   }
   return *pose;
 }

@@ -15,6 +15,7 @@ using nlohmann::ordered_json;
 namespace {
 
 constexpr double kTolerance = 1e-4;
+constexpr double kLargestShift = 1e13;  // of scans, whose coordinates end at 1e12, one onto another
 
 bool is_matrix(const ordered_json& rows) {
   if (!rows.is_array() || rows.size() != 4) return false;
@@ -66,6 +67,7 @@ std::optional<Rigid> rigid_from_json(const ordered_json& rows) {
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) pose.rotation[column][row] = rows[row][column].get<double>();
     pose.translation[row] = rows[row][3].get<double>();
+    if (std::abs(pose.translation[row]) > kLargestShift) return std::nullopt;
   }
   if (!is_rotation(pose.rotation)) return std::nullopt;
   pose.rotation = orthonormal(pose.rotation);

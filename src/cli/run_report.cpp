@@ -106,8 +106,7 @@ class AssemblyReader {
     const int group = value.value("group", -1);
     if (group < 0 || !value.contains("pose") || value["pose"].is_null()) return;
     fragment.pose = rigid_from_json(value["pose"]);
-    if (!fragment.pose)
-      refuse(path_, "pose of \"" + name + "\" is no 4 x 4 matrix of a rotation and a shift");
+    if (!fragment.pose) refuse(path_, fmt::format("pose of \"{}\" {}", name, kNoRigid));
     fragment.group = group;
     if (value.contains("confidence") && value["confidence"].is_number())
       fragment.confidence = value["confidence"].get<double>();

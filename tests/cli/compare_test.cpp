@@ -66,6 +66,8 @@ TEST_F(CompareCommand, PosesThatAreNoRigidMotionAreRefused) {
   expect_refused(folder / "text.json");
   write_file(folder / "null.json", "{\"pose\": null}");
   expect_refused(folder / "null.json");
+  write_file(folder / "far.json", "[[1, 0, 0, 1e39], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]");
+  expect_refused(folder / "far.json");
   const std::string deep = std::string(1000000, '[') + std::string(1000000, ']');
   write_file(folder / "deep.json", R"({"a": 1, "b": 2, "pose": )" + deep + "}");
   expect_refused(folder / "deep.json");
