@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/parallel.hpp"
 #include "core/words.hpp"
 #include "mesh/files.hpp"
@@ -65,6 +66,7 @@ std::vector<std::string> find_scans(const fs::path& folder) {
     throw InputError(folder.string(), names.empty() ? "holds no scan" : "holds one scan only",
                      "give a folder of ply, obj, stl, off, gltf, glb or drc files");
   }
+  for (const std::string& name : names) require_utf8_name(folder / name);
   std::sort(names.begin(), names.end());
   return names;
 }

@@ -12,7 +12,7 @@ namespace rejoin::batch {
 /// Names of all files in the folder (not below it) whose extension is one that mesh::load() knows, sorted by bytes;
 /// without the models that `rejoin match` and `assemble` write.
 /// \throws IoError     the folder cannot be read
-/// \throws InputError  it holds fewer than two such files
+/// \throws InputError  it holds fewer than two such files, or one whose name is no UTF-8
 std::vector<std::string> find_scans(const std::filesystem::path& folder);
 
 /// What to tell of the models in the folder that find_scans() leaves out; empty if there are none.

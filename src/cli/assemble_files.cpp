@@ -10,6 +10,7 @@
 
 #include "cli/json_values.hpp"
 #include "core/files.hpp"
+#include "core/utf8.hpp"
 #include "core/version.hpp"
 #include "mesh/save.hpp"
 #include "report/assembly_picture.hpp"
@@ -36,10 +37,11 @@ std::string matrix_text(const Rigid& pose) {
   return text + "0 0 0 1\n";
 }
 
-/// For an attribute's value in XML; control characters that XML knows no way to write become '?'.
+/// For an attribute's value in XML; control characters that XML knows no way to write become '?', and bytes of folders' names that
+/// are no UTF-8 U+FFFD.
 std::string xml_text(const std::string& text) {
   std::string result;
-  for (const char c : text) {
+  for (const char c : valid_utf8(text)) {
     switch (c) {
       case '&':
         result += "&amp;";

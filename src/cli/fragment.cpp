@@ -7,6 +7,7 @@
 
 #include "cli/interrupt.hpp"
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "core/words.hpp"
 #include "mesh/load.hpp"
 #include "mesh/painted_facets.hpp"
@@ -17,6 +18,7 @@ namespace {
 constexpr std::size_t kLeast = 4;  // faces or points; fewer enclose nothing
 
 mesh::Loaded load_scan(const std::string& path, Console& console, mesh::Weld weld = mesh::Weld::Places) {
+  require_utf8_name(path);
   mesh::Loaded loaded = mesh::load(path, weld);
   for (const std::string& warning : loaded.warnings) console.warning(warning);
   const bool cloud = loaded.mesh.is_cloud();

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/utf8.hpp"
 
 namespace rejoin {
 namespace fs = std::filesystem;
@@ -107,6 +108,12 @@ void require_writable_file(const fs::path& path) {
   errno = 0;
   if (!std::ofstream(probe)) refuse(path, errno);
   fs::remove(probe, ignored);
+}
+
+void require_utf8_name(const fs::path& path) {
+  if (is_utf8(path.filename().string())) return;
+  throw InputError(valid_utf8(path.string()), "has a name that is no UTF-8, so that no result can tell it",
+                   "rename the file (convmv renames whole folders)");
 }
 
 void require_writable_folder(const fs::path& folder) {

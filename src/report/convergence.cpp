@@ -8,6 +8,7 @@
 #include <iterator>
 #include <limits>
 
+#include "core/utf8.hpp"
 #include "report/canvas.hpp"
 
 namespace rejoin::report {
@@ -184,21 +185,6 @@ std::string candidates_chart(const std::vector<match::Candidate>& candidates) {
   }
   svg += line(kLeft, kBottom, kRight, kBottom, "#333");
   return svg + text((kLeft + kRight) / 2, kBottom + 44, "middle", "candidate pose, best first");
-}
-
-/// Length of the UTF-8 character that starts here, 0 if none does.
-std::size_t utf8_length(std::string_view text) {
-  const auto lead = static_cast<unsigned char>(text[0]);
-  const std::size_t length = lead < 0x80                   ? 1
-                             : lead >= 0xC2 && lead < 0xE0 ? 2
-                             : lead >= 0xE0 && lead < 0xF0 ? 3
-                             : lead >= 0xF0 && lead < 0xF5 ? 4
-                                                           : 0;
-  if (length == 0 || length > text.size()) return 0;
-  for (std::size_t k = 1; k < length; ++k) {
-    if ((static_cast<unsigned char>(text[k]) & 0xC0U) != 0x80U) return 0;
-  }
-  return length;
 }
 
 }  // namespace

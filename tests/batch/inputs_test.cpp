@@ -46,6 +46,17 @@ TEST_F(Inputs, TooFewScansAreAnError) {
   EXPECT_THROW(find_scans(folder_ / "nowhere"), IoError);
 }
 
+TEST_F(Inputs, NameThatIsNoUtf8IsRefusedAsItCouldNotBeToldApart) {
+  for (const char* name : {"a.ply", "Gef\xe4\xdf.ply", "Gef\xe4\xe4.ply"}) put(name, "x");
+  try {
+    find_scans(folder_);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("Gef\uFFFD\uFFFD.ply: has a name"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST_F(Inputs, HashTellsContentNotName) {
   const std::string large(3U << 20U, 'x');
   put("a", large);

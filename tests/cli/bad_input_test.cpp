@@ -62,6 +62,14 @@ TEST(HostileName, NeitherSteersTheTerminalNorMakesLines) {
   for (const char c : {'\033', '\r'}) EXPECT_EQ(finished.out.find(c), std::string::npos) << finished.out;
 }
 
+TEST(HostileName, ThatIsNoUtf8IsRefused) {
+  const TemporaryFolder folder;
+  const std::string name = folder / "Gef\xe4\xdf.ply";
+  write_file(name, kTetrahedron);
+  expect_failure(run({"facets", name}), "Gef\uFFFD\uFFFD.ply: has a name");
+  expect_failure(run({"match", name, folder / "other.ply"}), "Gef\uFFFD\uFFFD.ply: has a name");
+}
+
 TEST(CopiedFile, IsRefusedAsTheOtherFragment) {
   const TemporaryFolder folder;
   write_file(folder / "a.ply", kTetrahedron);

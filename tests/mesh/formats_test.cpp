@@ -165,6 +165,13 @@ TEST(Save, SceneGlbFarFromTheOriginComesThere) {
   EXPECT_NEAR(box.high.x, 4, 1e-6);
 }
 
+TEST(Scene, NameThatIsNoUtf8LeavesAValidGlb) {
+  const test::TemporaryFolder folder;
+  const Mesh cube = test::box({2, 2, 2}, 1);
+  save_scene(folder / "a.glb", {{"Gef\xe4\xdf", &cube, Rigid{}}});
+  EXPECT_EQ(load(folder / "a.glb").mesh.faces.size(), cube.faces.size());
+}
+
 TEST(Scene, LargerThanAGlbHoldsIsRefused) {
   const test::TemporaryFolder folder;
   Mesh cloud;

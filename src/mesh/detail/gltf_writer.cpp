@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "core/utf8.hpp"
 #include "mesh/detail/colour.hpp"
 #include "mesh/detail/gltf_model.hpp"
 #include "mesh/detail/writers.hpp"
@@ -34,10 +35,10 @@ class GlbBuilder {
 
   void add(const Placed& part) {
     tinygltf::Mesh mesh;
-    mesh.name = part.name;
+    mesh.name = valid_utf8(part.name);
     mesh.primitives.push_back(primitive_of(*part.mesh));
     tinygltf::Node node;
-    node.name = part.name;
+    node.name = mesh.name;
     node.mesh = static_cast<int>(model_.meshes.size());
     // Vertices stay relative to their origin; the node carries it in double precision.
     const glm::dvec3 shift = part.pose(part.mesh->origin);
