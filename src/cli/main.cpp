@@ -102,13 +102,15 @@ int run(const std::vector<Entry>& entries, const Common& common) {
   throw UsageError("command line", "no command is given", "see rejoin --help");
 }
 
-/// Whether JSON goes to stdout (--json -), where no text may stand beside it.
-bool json_on_stdout(const CLI::App& app) {
-  const CLI::Option* json = app.get_option_no_throw("--json");
-  if (json != nullptr && !json->empty() && json->results().back() == kStdout) return true;
-  const auto used = app.get_subcommands();
-  return std::any_of(used.begin(), used.end(),
-                     [](const CLI::App* command) { return json_on_stdout(*command); });
+/// Whether a file goes to stdout (--json -), where no text may stand beside it.
+bool file_on_stdout(const CLI::App& app) {
+  const auto is_on_stdout = [](const CLI::Option* option) {
+    return option->get_group() == "Output" && option->get_type_name() == "FILE" && !option->empty() &&
+           is_stdout(option->results().back());
+  };
+  return std::ranges::any_of(app.get_options(), is_on_stdout) ||
+         std::ranges::any_of(app.get_subcommands(),
+                             [](const CLI::App* used) { return file_on_stdout(*used); });
 }
 
 /// What is wrong with the words that nothing takes.  CLI11 would list them all, back to front.
@@ -159,7 +161,7 @@ int run_program(int argc, char** argv) {
   const std::vector<Entry> entries = add_commands(root);
   try {
     root.parse(argc, argv);
-    common.quiet = common.quiet || json_on_stdout(root);
+    common.quiet = common.quiet || file_on_stdout(root);
     return run(entries, common);
   } catch (const CLI::ParseError& error) {
     return explain(root, error);

@@ -38,8 +38,11 @@ bool would_destroy(const fs::path& output, const fs::path& input, const CLI::App
   std::error_code ignored;
   if (!fs::is_regular_file(output, ignored)) return false;
   if (is_same(output, input)) return true;
-  return fs::is_directory(input, ignored) && is_read_from_folders(output, command) &&
-         is_same(fs::absolute(output).parent_path(), input);
+  const auto is_read = [&](const fs::path& file) {
+    return is_read_from_folders(file, command) && is_same(file.parent_path(), input);
+  };
+  return fs::is_directory(input, ignored) &&
+         (is_read(fs::absolute(output)) || is_read(fs::canonical(output, ignored)));
 }
 
 bool has_name_of_a_file(const fs::path& path) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <system_error>
 
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
@@ -18,7 +19,9 @@ class ReportCommand final : public Command {
     app.add_option("RUN", run_, "folder of rejoin batch, with assembly.json if rejoin assemble was there")
         ->required()
         ->group("Input");
-    app.add_option("--out", out_, "the page (RUN/report.html)")->type_name("FILE")->group("Output");
+    app.add_option("--out", out_, "the page (RUN/report.html; -: to stdout)")
+        ->type_name("FILE")
+        ->group("Output");
     app.option_defaults()->group("Size");
     add_number(app, "--pictures", options_.pictured_joins, {0, 10000}, "joins that get pictures (60)");
     add_number(app, "--faces", options_.fragment_faces, {64, 1e6},
@@ -37,8 +40,10 @@ class ReportCommand final : public Command {
       console.warning("interrupted; no page was written");
       return kInterrupted;
     }
-    console.result(fmt::format("wrote {} ({:.1f} MB)\n", out.string(),
-                               static_cast<double>(std::filesystem::file_size(out)) / 1e6));
+    std::error_code none;  // of a pipe
+    const auto size = static_cast<double>(std::filesystem::file_size(out, none));
+    console.result(
+        fmt::format("wrote {}{}\n", out.string(), none ? "" : fmt::format(" ({:.1f} MB)", size / 1e6)));
     return kDone;
   }
 

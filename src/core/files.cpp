@@ -34,14 +34,30 @@ fs::path beside(const fs::path& path) {
   return result;
 }
 
-/// Under its own name, too: where it leads to a file, that one would be replaced and not written to.
-bool is_stdout(const fs::path& path) {
-  return path == kStdout || path == "/dev/stdout";
+/// Whether the name is one that the system gives an open file, as /dev/stderr and /dev/fd/3 lead to: what is written to it must
+/// not replace that file.
+bool is_open_file(const fs::path& path) {
+  std::error_code ignored;
+  return fs::weakly_canonical(path.parent_path(), ignored).string().starts_with("/proc/");
 }
 
+/// Where links lead, whether there is something or not: who writes to a link means that.
+fs::path target_of(fs::path path) {
+  constexpr int kMostLinks = 40;  // as many as Linux follows
+  std::error_code problem;
+  for (int k = 0; k < kMostLinks && !is_open_file(path) && fs::is_symlink(path, problem); ++k) {
+    const fs::path next = fs::read_symlink(path, problem);
+    if (problem) break;
+    path = path.parent_path() / next;
+  }
+  return path;
+}
+
+/// What is written to as it is, with nothing beside it to be renamed.
 bool is_device(const fs::path& path) {
   std::error_code ignored;
-  return fs::exists(path, ignored) && !fs::is_regular_file(path, ignored) && !fs::is_directory(path, ignored);
+  return fs::exists(path, ignored) &&
+         (is_open_file(path) || (!fs::is_regular_file(path, ignored) && !fs::is_directory(path, ignored)));
 }
 
 [[noreturn]] void refuse(const fs::path& path, int reason) {
@@ -62,6 +78,10 @@ int flush_to_disk(const fs::path& path) {
 }
 
 }  // namespace
+
+bool is_stdout(const fs::path& path) {
+  return path == kStdout || path == "/dev/stdout";
+}
 
 std::string extension_of(const fs::path& path) {
   std::string extension = path.extension().string();
@@ -96,8 +116,9 @@ std::string read_file(const fs::path& path) {
   return bytes;
 }
 
-void require_writable_file(const fs::path& path) {
-  if (is_stdout(path)) return;
+void require_writable_file(const fs::path& name) {
+  if (is_stdout(name)) return;
+  const fs::path path = target_of(name);
   if (is_device(path)) {
     if (access(path.c_str(), W_OK) != 0) refuse(path, errno);
     return;
@@ -140,13 +161,14 @@ void write_file(const fs::path& path, std::string_view content) {
   });
 }
 
-void write_file(const fs::path& path, const std::function<void(std::ostream&)>& write) {
-  if (is_stdout(path)) {
+void write_file(const fs::path& name, const std::function<void(std::ostream&)>& write) {
+  if (is_stdout(name)) {
     errno = 0;
     write(std::cout);
     if (!std::cout.flush()) refuse("standard output", errno);
     return;
   }
+  const fs::path path = target_of(name);
   const bool direct = is_device(path);
   const fs::path target = direct ? path : beside(path);
   errno = 0;

@@ -12,6 +12,10 @@ namespace rejoin {
 /// The path that stands for the standard output in write_file() and require_writable_file().
 inline constexpr std::string_view kStdout = "-";
 
+/// Whether write_file() writes to the standard output: under its device's name too, for where that leads to a file, the file would be
+/// replaced and not written to.
+bool is_stdout(const std::filesystem::path& path);
+
 /// The name's ending in lower case, with its dot: ".ply"; empty if it has none.
 std::string extension_of(const std::filesystem::path& path);
 
@@ -35,7 +39,7 @@ void require_writable_folder(const std::filesystem::path& folder);
 void require_empty_folder(const std::filesystem::path& folder);
 
 /// The file appears whole or not at all, whatever ends the program or the machine (written beside, flushed to the disk and
-/// renamed); a device such as /dev/stdout is written to directly.  \throws IoError
+/// renamed); a device or pipe is written to directly, and through a link what it leads to.  \throws IoError
 void write_file(const std::filesystem::path& path, std::string_view content);
 
 /// The same for content that is too long for memory.

@@ -120,6 +120,18 @@ TEST(Report, WithoutAnAssemblySaysSo) {
   EXPECT_NE(data["fragments"][0]["reason"].get<std::string>().find("rejoin assemble"), std::string::npos);
 }
 
+TEST(Report, GoesToStdoutAloneAndToDevices) {
+  const PlantedRun run;
+  const Finished page = testing::run({"report", run.folder, "--pictures", "0", "--out", "-"});
+  ASSERT_EQ(page.exit_code, 0) << page.err;
+  EXPECT_EQ(page.out.find("<!doctype html>"), 0U);
+  EXPECT_NE(page.out.rfind("</html>\n"), std::string::npos);
+  EXPECT_EQ(page.out.find("wrote "), std::string::npos);
+  const Finished nothing = testing::run({"report", run.folder, "--pictures", "0", "--out", "/dev/null"});
+  EXPECT_EQ(nothing.exit_code, 0) << nothing.err;
+  EXPECT_EQ(nothing.out, "wrote /dev/null\n");
+}
+
 TEST(Report, TellsThatTheAssemblyIsOlderThanThePairsAndTakesBackItsReasons) {
   const PlantedRun run;
   const json left_out = {

@@ -42,10 +42,14 @@ TEST(CommandLine, OutputsThatWouldTakeWhatIsReadAreRefused) {
   const std::string piece = folder / "piece.csv";
   const std::string truth = folder / "truth.json";
   for (const std::string& file : {scan, other, piece, truth}) write_file(file, "precious");
+  std::filesystem::create_directory(folder / "elsewhere");
+  const std::string link = folder / "elsewhere/link.json";
+  std::filesystem::create_symlink(scan, link);
   const std::vector<std::vector<std::string>> commands{
       {"match", scan, other, "--json", other},
       {"facets", scan, "--ply", folder / "./scan.ply"},
       {"assemble", folder / ".", "--json", other},
+      {"assemble", folder / ".", "--json", link},
       {"outline", "match", piece, other, "--json", piece},
       {"outline", "assemble", folder / "", "--json", piece},
       {"outline", "calibrate", folder / "", "--json", truth},

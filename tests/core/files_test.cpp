@@ -1,8 +1,11 @@
 #include "core/files.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -66,6 +69,30 @@ TEST_F(Files, WrittenFileHoldsTheBytesAndLeavesNothingBeside) {
   write_file(folder_ / "x", bytes);
   EXPECT_EQ(read(folder_ / "x"), bytes);
   EXPECT_EQ(entries(), 1);
+}
+
+TEST_F(Files, LinkStaysAndWhatItLeadsToIsWritten) {
+  fs::create_directory(folder_ / "disk");
+  write_file(folder_ / "disk" / "x", "old");
+  fs::create_symlink("disk/x", folder_ / "link");
+  fs::create_symlink("link", folder_ / "link to link");
+  require_writable_file(folder_ / "link to link");
+  write_file(folder_ / "link to link", "new");
+  EXPECT_EQ(read(folder_ / "disk" / "x"), "new");
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link to link") && fs::is_symlink(folder_ / "link"));
+  fs::remove(folder_ / "disk" / "x");
+  write_file(folder_ / "link", "made anew");
+  EXPECT_EQ(read(folder_ / "disk" / "x"), "made anew");
+}
+
+TEST_F(Files, OpenFileUnderTheSystemsNameIsWrittenToAndNotReplaced) {
+  write_file(folder_ / "log", "");
+  const int log = open((folder_ / "log").c_str(), O_RDWR | O_CLOEXEC);
+  write_file("/dev/fd/" + std::to_string(log), "lines");
+  std::string lines(8, ' ');
+  lines.resize(static_cast<std::size_t>(std::max<ssize_t>(0, pread(log, lines.data(), lines.size(), 0))));
+  close(log);
+  EXPECT_EQ(lines, "lines");
 }
 
 TEST_F(Files, RefusedFileLeavesNothing) {
