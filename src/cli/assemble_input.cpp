@@ -1,9 +1,10 @@
 #include "cli/assemble_input.hpp"
 
-#include <unistd.h>
-
 #include <fmt/core.h>
 
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 #include <mutex>
 #include <optional>
 #include <system_error>
@@ -123,10 +124,31 @@ AssembleInput read_run(const fs::path& folder, Console& console, const Context& 
   return input;
 }
 
+/// Makes a folder of our own where the system keeps such.
+/// \throws IoError
+fs::path make_passing_folder() {
+  constexpr const char* kMend = "set TMPDIR to a folder with room, or add --out DIR";
+  std::error_code problem;
+  const fs::path parent = fs::temp_directory_path(problem);
+  if (problem) {
+    const char* named = std::getenv("TMPDIR");
+    throw IoError(named == nullptr ? "/tmp" : named,
+                  fmt::format("cannot hold the run for as long as it is needed ({})", problem.message()),
+                  kMend);
+  }
+  std::string pattern = (parent / "rejoin-assemble-XXXXXX").string();
+  if (mkdtemp(pattern.data()) == nullptr) {
+    throw IoError(parent.string(),
+                  fmt::format("cannot hold the run for as long as it is needed ({})", std::strerror(errno)),
+                  kMend);
+  }
+  return pattern;
+}
+
 /// A folder for a run that nobody wants to keep.
 class PassingFolder {
  public:
-  PassingFolder() : path_(fs::temp_directory_path() / fmt::format("rejoin-assemble-{}", getpid())) {}
+  PassingFolder() : path_(make_passing_folder()) {}
   ~PassingFolder() {
     std::error_code ignored;
     fs::remove_all(path_, ignored);

@@ -121,6 +121,17 @@ TEST_F(BrokenBall, AFolderOfScansIsNotMatchedForNothing) {
   EXPECT_TRUE(finished.out.empty()) << finished.out;
 }
 
+TEST_F(BrokenBall, RunThatNobodyKeepsLeavesNothingAndNeedsAFolderForTheTime) {
+  std::filesystem::create_directory(folder_ / "tmp");
+  const Finished finished = run({"assemble", scans_, "--json", json_}, {"TMPDIR=" + (folder_ / "tmp")});
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_TRUE(std::filesystem::is_empty(folder_ / "tmp"));
+  const Finished refused = run({"assemble", scans_, "--json", json_}, {"TMPDIR=" + (folder_ / "nosuch")});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_TRUE(is_one_line(refused.err)) << refused.err;
+  EXPECT_NE(refused.err.find("nosuch: cannot hold the run"), std::string::npos) << refused.err;
+}
+
 TEST_F(BrokenBall, WishesThatCannotBeReadAreRefusedBeforeAnyPairIsMatched) {
   const std::string wishes = folder_ / "wishes.json";
   for (const char* text : {"{", R"({"must_join": [["fragment_00.ply", "fragment_17.ply"]]})"}) {
