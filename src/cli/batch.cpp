@@ -6,6 +6,7 @@
 #include <charconv>
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "batch/table.hpp"
@@ -58,7 +59,7 @@ class BatchCommand final : public Command {
 
   ExitCode run(Console& console, Context& context) override {
     options_.match.promising_only = !thorough_;
-    if (!shard_.empty()) options_.shard = parse_shard(shard_);
+    if (shard_) options_.shard = parse_shard(*shard_);
     const auto listener = json_ ? make_json_listener(console) : make_console_listener(console);
     const auto begin = std::chrono::steady_clock::now();
     const batch::Summary summary = batch::run(inputs_, out_, options_, *listener, context);
@@ -102,7 +103,7 @@ class BatchCommand final : public Command {
 
   std::string inputs_;
   std::string out_;
-  std::string shard_;
+  std::optional<std::string> shard_;
   bool json_ = false;
   bool thorough_ = false;
   batch::Options options_;

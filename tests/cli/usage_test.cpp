@@ -83,6 +83,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "'mtch' is no command; there are calibrate, match"},
         WrongUse{"NoOutlineCommand", {"outline"}, "no command"},
         WrongUse{"OutputWithoutAName", {"batch", "scans", "--out", ""}, "--out: has no name"},
+        WrongUse{"EmptyShard", {"batch", "scans", "--out", "run", "--shard", ""}, "--shard: '' is no part"},
         WrongUse{"FolderNamedLikeAFile",
                  {"assemble", "scans", "--out", "poses.json"},
                  "poses.json: has the name of a file, but --out takes a folder"},
