@@ -67,10 +67,14 @@ class AssembleCommand final : public Command {
     const std::vector<std::filesystem::path> files = json_files(console);
     std::optional<std::filesystem::path> keep;
     if (out_) keep = kept_run();
-    if (constraints_) read_constraints(*constraints_, names_in(input_));  // before hours of matching
+    std::optional<ConstraintsFile> constraints;
+    if (constraints_) {
+      constraints = open_constraints(*constraints_);
+      read_constraints(*constraints, names_in(input_));  // before hours of matching
+    }
     const AssembleInput input = read_assemble_input(input_, keep, console, context);
     if (context.cancelled()) return stopped(console);
-    if (constraints_) options_.constraints = read_constraints(*constraints_, input.names, input.bad);
+    if (constraints) options_.constraints = read_constraints(*constraints, input.names, input.bad);
     const assembly::Result result = assembly::assemble(input.fragments, input.links, options_, context);
     console.end_progress();
     for (const std::string& warning : warnings_of(input, result)) console.warning(warning);

@@ -20,9 +20,9 @@ constexpr const char* kMend = "see \"Constraints\" in docs/box-of-sherds.md";
 
 class Reader {
  public:
-  Reader(const std::string& path, const std::vector<std::string>& names,
+  Reader(const ConstraintsFile& file, const std::vector<std::string>& names,
          const std::map<std::string, std::string>& unusable)
-      : path_(path), names_(names), unusable_(unusable) {}
+      : path_(file.path), text_(file.text), names_(names), unusable_(unusable) {}
 
   assembly::Constraints read() const {
     const ordered_json json = parsed();
@@ -57,7 +57,7 @@ class Reader {
         repeated = value.get<std::string>();
       return true;
     };
-    ordered_json json = ordered_json::parse(read_json_text(path_, kMend), look, false);
+    ordered_json json = ordered_json::parse(text_, look, false);
     if (!json.is_discarded() && repeated) fail(fmt::format("gives \"{}\" twice", *repeated));
     return json;
   }
@@ -108,15 +108,20 @@ class Reader {
   }
 
   const std::string& path_;
+  const std::string& text_;
   const std::vector<std::string>& names_;
   const std::map<std::string, std::string>& unusable_;
 };
 
 }  // namespace
 
-assembly::Constraints read_constraints(const std::string& path, const std::vector<std::string>& names,
+ConstraintsFile open_constraints(const std::string& path) {
+  return {path, read_json_text(path, kMend)};
+}
+
+assembly::Constraints read_constraints(const ConstraintsFile& file, const std::vector<std::string>& names,
                                        const std::map<std::string, std::string>& unusable) {
-  return Reader(path, names, unusable).read();
+  return Reader(file, names, unusable).read();
 }
 
 }  // namespace rejoin::cli

@@ -9,12 +9,20 @@
 
 namespace rejoin::cli {
 
+/// A file of constraints as it was read: a pipe can be read but once.
+struct ConstraintsFile {
+  std::string path;
+  std::string text;
+};
+
+/// \throws IoError it cannot be read   \throws InputError it is nested without end
+ConstraintsFile open_constraints(const std::string& path);
+
 /// Reads {"must_join": [[A, B], ...], "must_not_join": [[A, B], ...], "poses": {A: 4 x 4, ...}}; every part may be missing.
 /// \param names     of the fragments; those in the file are these
 /// \param unusable  other fragments, with the reasons, for the message
-/// \throws IoError it cannot be read   \throws InputError it is no such file, names a fragment that is not there, a fragment
-///         with itself, or a pair as both
-assembly::Constraints read_constraints(const std::string& path, const std::vector<std::string>& names,
+/// \throws InputError it is no such file, names a fragment that is not there, a fragment with itself, or a pair as both
+assembly::Constraints read_constraints(const ConstraintsFile& file, const std::vector<std::string>& names,
                                        const std::map<std::string, std::string>& unusable = {});
 
 }  // namespace rejoin::cli

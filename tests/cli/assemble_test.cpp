@@ -1,8 +1,10 @@
 /// rejoin shatter and rejoin assemble as a whole, on a ball.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "../mesh/shapes.hpp"
 #include "mesh/load.hpp"
@@ -141,6 +143,16 @@ TEST_F(BrokenBall, WishesThatCannotBeReadAreRefusedBeforeAnyPairIsMatched) {
     EXPECT_NE(finished.err.find(wishes), std::string::npos) << finished.err;
     EXPECT_FALSE(std::filesystem::exists(folder_ / "out/run/run.sqlite"));
   }
+}
+
+TEST_F(BrokenBall, WishesMayComeThroughAPipe) {
+  const std::string pipe = folder_ / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  std::thread writer([&] { write_file(pipe, R"({"must_join": [["fragment_00.ply", "fragment_01.ply"]]})"); });
+  const Finished finished = run({"assemble", scans_, "--json", json_, "--constraints", pipe});
+  writer.join();
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_EQ(ordered_json::parse(read_file(json_))["constraints"]["must_join"].size(), 1U);
 }
 
 TEST_F(BrokenBall, AFolderWithoutScansOrARunIsRefused) {

@@ -15,7 +15,8 @@ assembly::Constraints read(const std::string& content) {
   const TemporaryFolder folder;
   const std::string path = folder / "wishes.json";
   write_file(path, content);
-  return read_constraints(path, kNames, {{"copy.ply", "is the same scan as a.ply, which stands for both"}});
+  return read_constraints(open_constraints(path), kNames,
+                          {{"copy.ply", "is the same scan as a.ply, which stands for both"}});
 }
 
 TEST(ReadConstraints, FindsPairsAndPosesByName) {
@@ -97,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& info) { return std::string(info.param.name); });
 
 TEST(ReadConstraints, AMissingFileIsAnIoError) {
-  EXPECT_THROW(read_constraints("/nowhere/wishes.json", kNames), IoError);
+  EXPECT_THROW(open_constraints("/nowhere/wishes.json"), IoError);
 }
 
 }  // namespace
