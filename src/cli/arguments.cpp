@@ -72,6 +72,21 @@ CLI::Validator whole_in_range(double low, double high) {
           ""};
 }
 
+std::vector<double> whole_numbers(const std::string& option, const std::string& text,
+                                  const NumberRange& range) {
+  std::vector<double> numbers;
+  for (const std::string& part : split(text)) {
+    const std::optional<double> value = is_whole(part) ? parse_number(part) : std::nullopt;
+    if (!value || *value < range.low || *value > range.high) {
+      throw CLI::ValidationError(
+          option, fmt::format("'{}' is no list of whole numbers from {} to {}, such as {},{}", text,
+                              range.low, range.high, range.low, range.low + 1));
+    }
+    numbers.push_back(*value);
+  }
+  return numbers;
+}
+
 CLI::Option* add_seed(CLI::App& app, std::uint64_t& seed, const std::string& description) {
   const auto check = [](std::string& text) {
     std::uint64_t value = 0;

@@ -60,6 +60,28 @@ CLI::Option* add_number(CLI::App& app, const std::string& name, Number& value, c
                                          : in_range(range.low, range.high));
 }
 
+/// Whole numbers with commas between them.
+/// \throws CLI::ValidationError one is none, is missing, or is outside the range
+std::vector<double> whole_numbers(const std::string& option, const std::string& text,
+                                  const NumberRange& range);
+
+/// Adds an option that takes whole numbers with commas between them, and may be repeated.
+template <typename Number>
+CLI::Option* add_numbers(CLI::App& app, const std::string& name, std::vector<Number>& values,
+                         const NumberRange& range, const std::string& description) {
+  const auto parse = [&values, name, range](const std::vector<std::string>& texts) {
+    values.clear();
+    for (const std::string& text : texts) {
+      for (const double number : whole_numbers(name, text, range))
+        values.push_back(static_cast<Number>(number));
+    }
+  };
+  return app.add_option_function<std::vector<std::string>>(name, parse, description)
+      ->type_name(range.word)
+      ->expected(1)
+      ->take_all();
+}
+
 /// Adds --seed.
 CLI::Option* add_seed(CLI::App& app, std::uint64_t& seed, const std::string& description);
 

@@ -90,24 +90,11 @@ class BenchCommand final : public Command {
     app.add_option("--json", json_, "write the table as JSON")->type_name("FILE")->group("Output");
     app.option_defaults()->group("Measurement");
     add_choice(app, "--backend", backend_, backend_choices(), "only this one");
-    app.add_option("--resolution", options_.resolutions, "pixels across a depth map (64,128,256)")
-        ->type_name("N,N,...")
-        ->delimiter(',')
-        ->expected(1)
-        ->take_all()
-        ->check(whole_in_range(8, 2048));
-    app.add_option("--faces", options_.faces, "faces a fragment (10000)")
-        ->type_name("N,N,...")
-        ->delimiter(',')
-        ->expected(1)
-        ->take_all()
-        ->check(whole_in_range(12, 1e7));
-    app.add_option("--batch", options_.batches, "poses a call (grows until a call takes a while)")
-        ->type_name("N,N,...")
-        ->delimiter(',')
-        ->expected(1)
-        ->take_all()
-        ->check(whole_in_range(1, 1 << 20));
+    add_numbers(app, "--resolution", options_.resolutions, {8, 2048, "N,N,..."},
+                "pixels across a depth map (64,128,256)");
+    add_numbers(app, "--faces", options_.faces, {12, 1e7, "N,N,..."}, "faces a fragment (10000)");
+    add_numbers(app, "--batch", options_.batches, {1, 1 << 20, "N,N,..."},
+                "poses a call (grows until a call takes a while)");
     add_number(app, "--seconds", options_.seconds_per_row, {0.001, 60, "S"}, "measured time a row (0.5)");
   }
 

@@ -96,7 +96,7 @@ int run(const std::vector<Entry>& entries, const Common& common) {
   const Interrupt interrupt(context);
   for (const Entry& entry : entries) {
     if (!entry.app->parsed()) continue;
-    require_outputs_apart(*entry.app);
+    require_sound_paths(*entry.app);
     return entry.command->run(console, context);
   }
   throw UsageError("command line", "no command is given", "see rejoin --help");

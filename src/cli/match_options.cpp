@@ -19,12 +19,7 @@ void add_directions(CLI::App& app, const char* name, std::vector<std::string>& t
 }
 
 void add_facets(CLI::App& app, const char* name, std::vector<int>& numbers) {
-  app.add_option(name, numbers, "facets that may join (rejoin facets)")
-      ->type_name("N,N,...")
-      ->delimiter(',')
-      ->expected(1)
-      ->take_all()
-      ->check(whole_in_range(0, 1e6));
+  add_numbers(app, name, numbers, {0, 1e6, "N,N,..."}, "facets that may join (rejoin facets)");
 }
 
 }  // namespace
@@ -35,8 +30,8 @@ void MatchOptions::define(CLI::App& app) {
   add_choice(app, "--constraint", constraint_, kConstraints, "what is known");
   add_directions(app, "--direction-a", directions_a_);
   add_directions(app, "--direction-b", directions_b_);
-  add_number(app, "--tolerance", options_.tolerance_deg, {0, 45, "DEG"},
-             "how far directions may be off (10)");
+  tolerance_ = add_number(app, "--tolerance", options_.tolerance_deg, {0, 45, "DEG"},
+                          "how far directions may be off (10)");
   app.add_option("--material-a", material_a_, "axis of the material, such as its layers")->type_name("x,y,z");
   app.add_option("--material-b", material_b_, "the same of B")->type_name("x,y,z");
   add_facets(app, "--facets-a", options_.facets_a);
@@ -44,7 +39,8 @@ void MatchOptions::define(CLI::App& app) {
   add_number(app, "--resolution", options_.resolution, {8, 2048},
              "pixels across a depth map, 8 to 2048 (128)");
   add_choice(app, "--backend", options_.backend, backend_choices(), "what draws");
-  add_number(app, "--chains", options_.chains, {1, 256}, "annealing chains side by side, 1 to 256 (8)");
+  chains_ =
+      add_number(app, "--chains", options_.chains, {1, 256}, "annealing chains side by side, 1 to 256 (8)");
   add_seed(app, options_.seed, "of the random numbers (1)");
 }
 
@@ -52,8 +48,8 @@ match::Options MatchOptions::values() const {
   match::Options options = options_;
   options.directions_a = parse_directions("--direction-a", directions_a_);
   options.directions_b = parse_directions("--direction-b", directions_b_);
-  if (!material_a_.empty()) options.material_a = parse_direction("--material-a", material_a_);
-  if (!material_b_.empty()) options.material_b = parse_direction("--material-b", material_b_);
+  if (material_a_) options.material_a = parse_direction("--material-a", *material_a_);
+  if (material_b_) options.material_b = parse_direction("--material-b", *material_b_);
   if (options.material_a.has_value() != options.material_b.has_value()) {
     throw UsageError(options.material_a ? "--material-b" : "--material-a", "is missing",
                      "give the material axis of both fragments");
@@ -74,7 +70,21 @@ match::Options MatchOptions::values() const {
     throw UsageError("--constraint none", "contradicts the directions that are given",
                      "leave out one of the two");
   }
+  require_effect(options);
   return options;
+}
+
+/// An option that changes nothing is a mistake: the user expects something of it.
+void MatchOptions::require_effect(const match::Options& options) const {
+  const bool by_material = options.constraint == match::Constraint::Material || options.material_a;
+  const bool tolerated = options.constraint == match::Constraint::Direction ||
+                         (by_material && options.search == match::Search::Sweep);
+  if (tolerance_->count() > 0 && !tolerated) {
+    throw UsageError("--tolerance", "has no direction that it could be of",
+                     "add --direction-a or --direction-b, or leave it out");
+  }
+  if (chains_->count() > 0 && options.search != match::Search::Esa)
+    throw UsageError("--chains", "serves --search esa only", "leave out one, or add the other");
 }
 
 }  // namespace rejoin::cli

@@ -80,8 +80,12 @@ void require_apart(const std::string& option, const fs::path& output, const fs::
   if (fs::is_regular_file(output, ignored) && is_same(output, input)) refuse(option, output);
 }
 
-void require_outputs_apart(const CLI::App& command) {
+void require_sound_paths(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
+    const bool is_empty =
+        std::ranges::any_of(option->results(), [](const auto& value) { return value.empty(); });
+    if (option->get_group() == "Input" && is_empty)
+      throw UsageError(option->get_name(), "is empty", "name what is to be read");
     const std::string type = option->get_type_name();
     if (option->get_group() != "Output" || (type != "FILE" && type != "DIR" && type != "RUN")) continue;
     for (const std::string& value : option->results()) {
@@ -93,7 +97,7 @@ void require_outputs_apart(const CLI::App& command) {
       }
     }
   }
-  for (const CLI::App* used : command.get_subcommands()) require_outputs_apart(*used);
+  for (const CLI::App* used : command.get_subcommands()) require_sound_paths(*used);
 }
 
 }  // namespace rejoin::cli

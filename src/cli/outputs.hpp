@@ -14,8 +14,8 @@ void require_apart(const std::string& option, const std::filesystem::path& outpu
                    const std::filesystem::path& input);
 
 /// Looks at the values of a parsed command's, and its commands', options in the groups "Input" and "Output".
-/// \throws UsageError an output is empty, is a file that is read too or a scan or piece in a folder that is read, or has the name of a file where a
+/// \throws UsageError an input or output is empty, an output is a file that is read too or a scan or piece in a folder that is read, or has the name of a file where a
 ///         folder is taken
-void require_outputs_apart(const CLI::App& command);
+void require_sound_paths(const CLI::App& command);
 
 }  // namespace rejoin::cli
