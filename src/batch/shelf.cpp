@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <mutex>
 #include <new>
 #include <optional>
+#include <set>
 #include <utility>
 
-#include "batch/inputs.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/parallel.hpp"
@@ -79,6 +81,20 @@ std::optional<mesh::Mesh> kept_surface(const store::Fragment& fragment, const fs
   } catch (const Error&) {
     return std::nullopt;  // cut short by a power failure: made again
   }
+}
+
+ChangedScans kept_ones(const ChangedScans& scans, const std::vector<store::Fragment>& fragments,
+                       const fs::path& cache) {
+  std::set<std::string> kept;
+  std::error_code ignored;
+  for (const store::Fragment& fragment : fragments) {
+    if (fs::is_regular_file(kept_file(fragment, cache), ignored)) kept.insert(fragment.name);
+  }
+  ChangedScans result;
+  const auto is_kept = [&kept](const std::string& name) { return kept.count(name) != 0; };
+  std::ranges::copy_if(scans.gone, std::back_inserter(result.gone), is_kept);
+  std::ranges::copy_if(scans.changed, std::back_inserter(result.changed), is_kept);
+  return result;
 }
 
 void gather_surfaces(const std::vector<fs::path>& caches, const fs::path& cache) {

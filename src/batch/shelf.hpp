@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "batch/inputs.hpp"
 #include "core/context.hpp"
 #include "match/match.hpp"
 #include "store/records.hpp"
@@ -28,6 +29,11 @@ match::Fragment load_prepared(const store::Fragment& fragment, const std::filesy
 
 /// The surface kept under `cache`, if it is there and whole.
 std::optional<mesh::Mesh> kept_surface(const store::Fragment& fragment, const std::filesystem::path& cache);
+
+/// Of scans that changed, those whose surfaces are kept under `cache`: of the others nothing stands for what was matched.
+/// \param fragments  of the run
+ChangedScans kept_ones(const ChangedScans& scans, const std::vector<store::Fragment>& fragments,
+                       const std::filesystem::path& cache);
 
 /// Puts the surfaces that several runs keep into one cache, as links to the same files where the disk can.
 /// \throws StoreError the cache cannot be written

@@ -17,6 +17,7 @@
 #include "cli/interrupt.hpp"
 #include "core/files.hpp"
 #include "core/words.hpp"
+#include "store/run.hpp"
 
 namespace rejoin::cli {
 namespace {
@@ -63,6 +64,8 @@ class AssembleCommand final : public Command {
   }
 
   ExitCode run(Console& console, Context& context) override {
+    if (std::filesystem::path(input_).filename() == store::kFileName)
+      input_ = store::folder_of(input_).string();
     require_outputs();
     const std::vector<std::filesystem::path> files = json_files(console);
     std::optional<std::filesystem::path> keep;
@@ -86,13 +89,12 @@ class AssembleCommand final : public Command {
         continue;
       }
       write_file(file, assembly_json(input, options_.constraints, result));
-      console.result(fmt::format("wrote {}\n", file.string()));
+      console.wrote(file);
     }
     if (out_ && !result.cancelled) {
       if (result.groups == 0) console.result("nothing is placed, so there are no models to write\n");
       const NothingToSave guard;
-      for (const auto& file : write_assembly(*out_, input, result))
-        console.result(fmt::format("wrote {}\n", file.string()));
+      for (const auto& file : write_assembly(*out_, input, result)) console.wrote(file);
     }
     return result.cancelled ? kInterrupted : kDone;
   }

@@ -109,7 +109,10 @@ AssembleInput read_run(const fs::path& folder, Console& console, const Context& 
   const store::Run run = store::Run::open(folder);
   AssembleInput input;
   input.remains = store::remains(run);
-  input.warnings = batch::told(batch::changed_scans(run.fragments()), "assembled is");
+  const std::vector<store::Fragment> fragments = run.fragments();
+  input.warnings =
+      batch::told(batch::kept_ones(batch::changed_scans(fragments), fragments, folder / batch::kCacheName),
+                  "assembled is");
   const auto number = load_all(run, folder, input, console, context);
   if (input.fragments.size() < 2 && !context.cancelled())
     throw InputError(folder.string(), "fewer than two of its fragments can be used", "see the warnings");

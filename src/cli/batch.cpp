@@ -5,6 +5,7 @@
 
 #include <charconv>
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -84,7 +85,8 @@ class BatchCommand final : public Command {
     text += fmt::format(", {} of {} pairs done, {} of them now", progress.done, progress.total,
                         progress.done - summary.done_before);
     if (progress.failed > 0) text += fmt::format(", {} failed", progress.failed);
-    return text + fmt::format(", in {}\nwrote {}/{}\n", duration_text(seconds), out_, batch::kTableName);
+    return text + fmt::format(", in {}\nwrote {}\n", duration_text(seconds),
+                              (std::filesystem::path(out_) / batch::kTableName).string());
   }
 
   ExitCode tell_end(Console& console, const batch::Summary& summary) const {

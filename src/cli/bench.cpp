@@ -108,6 +108,7 @@ class BenchCommand final : public Command {
     const Ratios ratios = zbuffer::ratios_of(rows);
     if (json_) write_file(*json_, to_json(rows, ratios));
     console.result(machine() + "\n" + table(rows) + table(ratios));
+    if (json_) console.wrote(*json_);
     return context.cancelled() ? kInterrupted : kDone;
   }
 

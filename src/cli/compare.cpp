@@ -66,9 +66,11 @@ class CompareCommand final : public Command {
     }
     if (json_) write_file(*json_, report::compare_json(comparison, path_a_, path_b_));
     console.result(report::compare_table(comparison));
+    if (json_) console.wrote(*json_);
     if (out_) {
       const NothingToSave guard;
-      report::write_compare_outputs(*out_, comparison, path_a_, path_b_);
+      for (const auto& file : report::write_compare_outputs(*out_, comparison, path_a_, path_b_))
+        console.wrote(file);
     }
     return kDone;
   }

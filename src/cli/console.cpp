@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "core/files.hpp"
+
 namespace rejoin::cli {
 
 std::string harmless(std::string_view text) {
@@ -33,6 +35,10 @@ void Console::result(std::string_view text) {
   if (quiet) return;
   fmt::print("{}", harmless(text));
   std::fflush(stdout);  // Ctrl-C during the pictures that follow must not lose it
+}
+
+void Console::wrote(const std::filesystem::path& file) {
+  if (!is_stdout(file)) result(fmt::format("wrote {}\n", file.string()));
 }
 
 void Console::warning(std::string_view text) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -27,6 +28,9 @@ class Console {
 
   /// A part of the result, with its line end.
   void result(std::string_view text);
+
+  /// The line that tells an output; nothing of one that is the standard output itself.
+  void wrote(const std::filesystem::path& file);
 
   void warning(std::string_view text);
 

@@ -116,6 +116,9 @@ class FacetsCommand final : public Command {
     if (ply_) mesh::save(*ply_, coloured(fragment.surface, fragment.facets));
     if (png_) report::write_png(*png_, report::facet_picture(fragment.surface, fragment.facets, path_));
     if (json_) write_file(*json_, facets_json(fragment));
+    for (const auto& file : {ply_, png_, json_}) {
+      if (file) console.wrote(*file);
+    }
     return kDone;
   }
 

@@ -29,7 +29,10 @@ class InfoCommand final : public Command {
       console.result(fmt::format("{:<10} {}\n", zbuffer::name_of(info.backend),
                                  info.available ? info.renderer : "missing: " + info.why_not));
     }
-    if (json_) write_file(*json_, to_json(backends));
+    if (json_) {
+      write_file(*json_, to_json(backends));
+      console.wrote(*json_);
+    }
     return kDone;
   }
 

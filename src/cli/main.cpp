@@ -133,9 +133,6 @@ std::string unexpected(const std::vector<std::string>& words, const CLI::App& ap
 
 /// What is wrong with the command line, as one line with the way out.
 int explain(const CLI::App& root, const CLI::ParseError& error) {
-  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
-    return root.exit(error) == 0 ? kDone : kFailure;  // --help or --version
-  }
   const CLI::App* app = &root;
   std::string command = "rejoin";
   for (auto used = root.get_subcommands(); !used.empty(); used = app->get_subcommands()) {
@@ -143,6 +140,9 @@ int explain(const CLI::App& root, const CLI::ParseError& error) {
     command += " " + app->get_name();
   }
   const std::vector<std::string> words = root.remaining(true);
+  const bool is_help = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);  // or --version
+  if (is_help && (words.empty() || visible_subcommands(*app).empty()))
+    return root.exit(error) == 0 ? kDone : kFailure;
   std::string text = words.empty() ? error.what() : unexpected(words, *app, command);
   std::replace(text.begin(), text.end(), '\n', ' ');  // CLI11 tells several things on several lines
   fmt::print(stderr, "rejoin: {}; see {} --help\n", harmless(text), command);

@@ -127,7 +127,7 @@ class MatchCommand final : public Command {
     const double seconds = seconds_since(begin);
     if (json_) write_file(*json_, match_json(a, b, options, result, seconds));
     console.result(summary(result));
-    if (json_) console.result(fmt::format("wrote {}\n", *json_));
+    if (json_) console.wrote(*json_);
     if (out_) write_folder(console, a, b, result);
     return result.cancelled ? kInterrupted : kDone;
   }
@@ -169,7 +169,7 @@ class MatchCommand final : public Command {
                          {{path_a_, &a.surface, Rigid{}}, {path_b_, &b.surface, result.candidates[0].pose}});
       }
     }
-    for (const std::filesystem::path& file : files) console.result(fmt::format("wrote {}\n", file.string()));
+    for (const std::filesystem::path& file : files) console.wrote(file);
   }
 
   static void tell_times(Console& console, const match::Fragment& a, const match::Fragment& b,

@@ -28,16 +28,19 @@ class MergeCommand final : public Command {
 
   ExitCode run(Console& console, Context& /*context*/) override {
     const NothingToSave guard;
-    const store::Merged merged = store::merge({runs_.begin(), runs_.end()}, out_);
+    const std::filesystem::path out = out_;
+    const store::Merged merged = store::merge({runs_.begin(), runs_.end()}, out);
     std::vector<std::filesystem::path> caches;
-    for (const std::string& run : runs_) caches.push_back(std::filesystem::path(run) / batch::kCacheName);
-    batch::gather_surfaces(caches, std::filesystem::path(out_) / batch::kCacheName);
-    const store::Run whole = store::Run::open(out_);
-    batch::write_table(whole, std::filesystem::path(out_) / batch::kTableName);
+    for (const std::string& run : runs_) caches.push_back(store::folder_of(run) / batch::kCacheName);
+    batch::gather_surfaces(caches, out / batch::kCacheName);
+    const store::Run whole = store::Run::open(out);
+    const std::filesystem::path table = out / batch::kTableName;
+    batch::write_table(whole, table);
     console.result(counted(merged.fragments, "fragment") + ", " + counted(merged.pairs, "pair"));
     const std::size_t missing = store::remains(whole).missing;
     if (missing > 0) console.result(fmt::format(" ({} still to be done)", missing));
-    console.result(fmt::format("\nwrote {}/{}\n", out_, batch::kTableName));
+    console.result("\n");
+    console.wrote(table);
     if (merged.failed == 0) return kDone;
     console.warning(counted(merged.failed, "pair") + " failed; the table tells why");
     return kFailure;

@@ -9,6 +9,7 @@
 #include "cli/command.hpp"
 #include "cli/run_report.hpp"
 #include "core/files.hpp"
+#include "store/run.hpp"
 
 namespace rejoin::cli {
 namespace {
@@ -29,11 +30,10 @@ class ReportCommand final : public Command {
   }
 
   ExitCode run(Console& console, Context& context) override {
-    const std::filesystem::path run = run_;
-    const std::filesystem::path folder = std::filesystem::is_directory(run) ? run : run.parent_path();
-    const std::filesystem::path out = out_ ? std::filesystem::path(*out_) : folder / "report.html";
+    const std::filesystem::path out =
+        out_ ? std::filesystem::path(*out_) : store::folder_of(run_) / "report.html";
     require_writable_file(out);
-    const report::RunReport report = read_run(run, options_.listed_pairs, console, context);
+    const report::RunReport report = read_run(run_, options_.listed_pairs, console, context);
     const bool written = !context.cancelled() && report::write_run_report(report, out, context, options_);
     console.end_progress();
     if (!written) {

@@ -223,7 +223,8 @@ void read_scans(report::RunReport& report, const std::vector<store::Fragment>& s
     if (fragment.mesh.faces.empty()) fragment.mesh = {};
     any = any || !fragment.mesh.faces.empty();
   }
-  for (const std::string& line : batch::told(changed, "shown is")) warn(report, console, line);
+  const batch::ChangedScans kept = batch::kept_ones(changed, stored, folder / batch::kCacheName);
+  for (const std::string& line : batch::told(kept, "shown is")) warn(report, console, line);
   if (!any && !context.cancelled())
     warn(report, console,
          "no surface could be read, so the page has no pictures: run rejoin batch again on the scans, where "
@@ -313,7 +314,7 @@ void add_parameters(report::RunReport& report, const store::Run& run, const std:
 report::RunReport read_run(const std::filesystem::path& run, std::size_t listed, Console& console,
                            const Context& context) {
   const store::Run database = store::Run::open(run);
-  const std::filesystem::path folder = std::filesystem::is_directory(run) ? run : run.parent_path();
+  const std::filesystem::path folder = store::folder_of(run);
   report::RunReport report;
   report.title = std::filesystem::weakly_canonical(folder).filename().string();
   Numbers numbers;

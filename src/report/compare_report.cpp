@@ -140,12 +140,16 @@ std::string compare_json(const Comparison& comparison, const std::string& path_a
   return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
-void write_compare_outputs(const std::filesystem::path& folder, const Comparison& comparison,
-                           const std::string& path_a, const std::string& path_b) {
+std::vector<std::filesystem::path> write_compare_outputs(const std::filesystem::path& folder,
+                                                         const Comparison& comparison,
+                                                         const std::string& path_a,
+                                                         const std::string& path_b) {
   require_writable_folder(folder);
   const auto name = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
-  write_file(folder / "compare.json", compare_json(comparison, path_a, path_b));
-  write_png(folder / "compare.png", draw_comparison(comparison, name(path_a), name(path_b)));
+  std::vector<std::filesystem::path> files{folder / "compare.json", folder / "compare.png"};
+  write_file(files[0], compare_json(comparison, path_a, path_b));
+  write_png(files[1], draw_comparison(comparison, name(path_a), name(path_b)));
+  return files;
 }
 
 }  // namespace rejoin::report

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "match/compare.hpp"
 #include "report/image.hpp"
@@ -24,8 +25,11 @@ Image draw_comparison(const match::Comparison& comparison, const std::string& na
                       const std::string& name_b);
 
 /// Writes compare.png and compare.json.
+/// \return the files
 /// \throws IoError the folder or a file cannot be written
-void write_compare_outputs(const std::filesystem::path& folder, const match::Comparison& comparison,
-                           const std::string& path_a, const std::string& path_b);
+std::vector<std::filesystem::path> write_compare_outputs(const std::filesystem::path& folder,
+                                                         const match::Comparison& comparison,
+                                                         const std::string& path_a,
+                                                         const std::string& path_b);
 
 }  // namespace rejoin::report

@@ -127,6 +127,12 @@ std::vector<std::string> forget_changed(SQLite::Database& database, std::map<std
 
 }  // namespace
 
+fs::path folder_of(const fs::path& run) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(run, ignored)) return run;
+  return run.has_parent_path() ? run.parent_path() : fs::path(".");
+}
+
 Run::Run(std::unique_ptr<Access> access) : access_(std::move(access)) {}
 Run::~Run() = default;
 Run::Run(Run&&) noexcept = default;

@@ -14,6 +14,9 @@ namespace rejoin::store {
 /// Name of the database in the run's folder.
 inline constexpr const char* kFileName = "run.sqlite";
 
+/// The folder of the run that is given by its folder, or by the database or another file in it.
+std::filesystem::path folder_of(const std::filesystem::path& run);
+
 /// An open database.  Every writing call is one transaction: it is there as a whole once the call returns, power cut or not,
 /// and not at all if it throws.  One process may write at a time, any number may read meanwhile.  Not thread-safe.
 ///

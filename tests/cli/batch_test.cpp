@@ -134,8 +134,9 @@ TEST_F(Batch, KilledTwentyTimesAndResumedIsAsUndisturbed) {
 
 TEST_F(Batch, SecondRunDoesNothing) {
   fs::copy(*home_ / "undisturbed", run_, fs::copy_options::recursive);
-  const Finished again = run({"batch", scans(), "--out", run_});
+  const Finished again = run({"batch", scans(), "--out", run_ + "/"});
   EXPECT_EQ(again.exit_code, 0);
+  EXPECT_NE(again.out.find("wrote " + run_ + "/pairs.csv"), std::string::npos) << again.out;
   EXPECT_NE(again.out.find("0 of them now"), std::string::npos) << again.out;
 }
 
@@ -283,6 +284,7 @@ TEST_F(Batch, RunKnowsItsScansFromAnyFolderAndKeepsTheirSurfacesWhereTheyAreGone
   fs::remove_all(run_ + "/fragments");
   const Finished nothing = run({"report", run_, "--pictures", "0"});
   EXPECT_NE(nothing.err.find("no surface could be read"), std::string::npos) << nothing.err;
+  EXPECT_EQ(nothing.err.find("what the run keeps"), std::string::npos) << nothing.err;
 #endif
 }
 
@@ -293,8 +295,8 @@ TEST_F(Batch, ScanReplacedSinceIsToldAndWhatWasMatchedIsAssembled) {
   const std::string before = read_file(run_ + "/assembly.json");
   mesh::save(folder_ / "scans/b7.ply", match::testing::planted_pair(9, kCells).a);
   const std::string told = "1 scan changed since rejoin batch matched it (b7.ply)";
-  const Finished assembled = run({"assemble", run_});
-  EXPECT_EQ(assembled.exit_code, 0);
+  const Finished assembled = run({"assemble", run_ + "/run.sqlite"});
+  EXPECT_EQ(assembled.exit_code, 0) << assembled.err;
   EXPECT_NE(assembled.err.find(told), std::string::npos) << assembled.err;
   const json after = json::parse(read_file(run_ + "/assembly.json"));
   EXPECT_EQ(after["fragments"], json::parse(before)["fragments"]);
@@ -308,7 +310,9 @@ TEST_F(Batch, ScanReplacedSinceIsToldAndWhatWasMatchedIsAssembled) {
       << without.err;
 #endif
   fs::remove_all(run_ + "/fragments");
-  EXPECT_EQ(run({"assemble", run_}).exit_code, 0);
+  const Finished left_out = run({"assemble", run_});
+  EXPECT_EQ(left_out.exit_code, 0);
+  EXPECT_EQ(left_out.err.find("what the run keeps"), std::string::npos) << left_out.err;
   const json lost = json::parse(read_file(run_ + "/assembly.json"));
   EXPECT_NE(lost["fragments"]["b7.ply"]["reason"].get<std::string>().find("another content"),
             std::string::npos)

@@ -45,6 +45,8 @@ TEST_F(CompareCommand, BothErrorsAreSmallAtThePlantedPoseAndAgree) {
   EXPECT_EQ(result["schema"], "rejoin.compare/1");
   EXPECT_NEAR(result["explained"]["total"].get<double>(), 0.0, 0.05);
   EXPECT_FALSE(read_file(folder / "out/compare.png").empty());
+  for (const std::string& file : {json, folder / "out/compare.json", folder / "out/compare.png"})
+    EXPECT_NE(finished.out.find("wrote " + file + "\n"), std::string::npos) << finished.out;
 }
 
 TEST_F(CompareCommand, InterruptedWritesNoFigures) {

@@ -81,6 +81,8 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUse{"UnknownOutlineCommand",
                  {"outline", "mtch", "a.png", "b.png"},
                  "'mtch' is no command; there are calibrate, match"},
+        WrongUse{"HelpOfAnUnknownCommand", {"glue", "--help"}, "'glue' is no command"},
+        WrongUse{"HelpOfAnUnknownOutlineCommand", {"outline", "mtch", "--help"}, "'mtch' is no command"},
         WrongUse{"NoOutlineCommand", {"outline"}, "no command"},
         WrongUse{"OutputWithoutAName", {"batch", "scans", "--out", ""}, "--out: has no name"},
         WrongUse{"EmptyShard", {"batch", "scans", "--out", "run", "--shard", ""}, "--shard: '' is no part"},

@@ -288,6 +288,24 @@ TEST_F(RunTest, OtherFilesAreRefused) {
   EXPECT_THROW(store::Run::write(folder_), StoreError);
 }
 
+TEST_F(RunTest, FileOfTheUsersIsNotToBeMovedAway) {
+  std::ofstream(folder_ / "scan.ply") << "ply, but no database, which is longer than the header of one";
+  try {
+    store::Run::open(folder_ / "scan.ply");
+    FAIL() << "opened";
+  } catch (const StoreError& error) {
+    EXPECT_NE(std::string(error.what()).find("give the folder that rejoin batch wrote"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST_F(RunTest, FolderIsKnownByTheFilesInIt) {
+  make_run();
+  EXPECT_EQ(folder_of(folder_ / kFileName), folder_);
+  EXPECT_EQ(folder_of(folder_), folder_);
+  EXPECT_EQ(folder_of("nosuch.sqlite"), "nosuch.sqlite");
+}
+
 TEST_F(RunTest, NewerSchemaIsRefused) {
   make_run();
   SQLite::Database(folder_ / kFileName, SQLite::OPEN_READWRITE).exec("PRAGMA user_version = 99");

@@ -70,7 +70,9 @@ int pragma(SQLite::Database& database, const char* name) {
   return database.execAndGet(fmt::format("PRAGMA {}", name)).getInt();
 }
 
-const char* mend_of(int code) {
+constexpr const char* kGiveARun = "give the folder that rejoin batch wrote";
+
+const char* mend_of(int code, const std::string& path) {
   switch (code) {
     case SQLITE_FULL:
     case SQLITE_IOERR:
@@ -78,8 +80,10 @@ const char* mend_of(int code) {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
       return "another rejoin works on this run; wait for its end";
-    case SQLITE_CORRUPT:
     case SQLITE_NOTADB:
+      if (std::filesystem::path(path).filename() != kFileName) return kGiveARun;
+      [[fallthrough]];
+    case SQLITE_CORRUPT:
       return "move the file away and run rejoin batch again";
     case SQLITE_CANTOPEN:
     case SQLITE_READONLY:
@@ -113,7 +117,7 @@ void make_tables(SQLite::Database& database) {
 
 void require_schema(SQLite::Database& database, const std::string& path) {
   if (pragma(database, "application_id") != kApplication) {
-    throw StoreError(path, "is no database of a run", "give the folder that rejoin batch wrote");
+    throw StoreError(path, "is no database of a run", kGiveARun);
   }
   const int version = pragma(database, "user_version");
   if (version != kSchemaVersion) {
@@ -142,7 +146,7 @@ std::string reading_address(const std::filesystem::path& file) {
 
 void fail(const SQLite::Exception& error, const std::string& path) {
   throw StoreError(path, fmt::format("the database refuses ({})", error.what()),
-                   mend_of(error.getErrorCode() & 0xff));
+                   mend_of(error.getErrorCode() & 0xff, path));
 }
 
 }  // namespace rejoin::store::detail
