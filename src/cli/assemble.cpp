@@ -96,7 +96,8 @@ class AssembleCommand final : public Command {
       const NothingToSave guard;
       for (const auto& file : write_assembly(*out_, input, result)) console.wrote(file);
     }
-    return result.cancelled ? kInterrupted : kDone;
+    if (result.cancelled) return kInterrupted;
+    return input.failed_now ? kFailure : kDone;
   }
 
  private:

@@ -170,7 +170,9 @@ AssembleInput match_and_read(const fs::path& scans, const fs::path& run, Console
   const batch::Summary summary = batch::run(scans, run, batch::Options(), *listener, context);
   console.end_progress();
   if (summary.cancelled) return {};
-  return read_run(run, console, context);
+  AssembleInput input = read_run(run, console, context);
+  input.failed_now = summary.progress.failed > 0 || !summary.bad.empty();
+  return input;
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ struct AssembleInput {
   std::vector<assembly::Link> links;
   store::Remains remains;                  ///< of the run
   std::vector<std::string> warnings;       ///< what else the user should know of the run
+  bool failed_now = false;                 ///< scans or pairs failed while a folder was matched; told
   std::map<std::string, std::string> bad;  ///< fragments that cannot be used or are copies, with the reason
 };
 

@@ -108,6 +108,16 @@ TEST_F(BrokenBall, AssembleOfAFolderMatchesAndPutsItTogether) {
   }
 }
 
+TEST_F(BrokenBall, AssembleOfAFolderTellsAScanThatCannotBeUsedByItsExitCode) {
+  write_file(scans_ + "/notes.ply", "Dear diary,\n");
+  const Finished finished = run({"assemble", scans_, "--json", json_});
+  EXPECT_EQ(finished.exit_code, 1);
+  EXPECT_NE(finished.err.find("notes.ply"), std::string::npos) << finished.err;
+  const ordered_json result = ordered_json::parse(read_file(json_));
+  ASSERT_EQ(result["unplaced"].size(), 1U) << "the rest is put together";
+  EXPECT_EQ(result["unplaced"][0], "notes.ply");
+}
+
 TEST_F(BrokenBall, WhatIsNotThereIsNeitherRunNorFolder) {
   const Finished finished = run({"assemble", folder_ / "nosuch", "--json", json_});
   EXPECT_EQ(finished.exit_code, 1);
