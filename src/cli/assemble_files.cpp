@@ -27,12 +27,13 @@ constexpr const char* kMatrices = "cloudcompare";
 
 using nlohmann::ordered_json;
 
-/// Four rows of four numbers, as CloudCompare and MeshLab read them.
+/// Four rows of four numbers, as CloudCompare and MeshLab read them, with all their digits: coordinates of maps need more than
+/// twelve.
 std::string matrix_text(const Rigid& pose) {
   std::string text;
   for (int row = 0; row < 3; ++row) {
-    text += fmt::format("{:.12g} {:.12g} {:.12g} {:.12g}\n", pose.rotation[0][row], pose.rotation[1][row],
-                        pose.rotation[2][row], pose.translation[row]);
+    text += fmt::format("{} {} {} {}\n", pose.rotation[0][row], pose.rotation[1][row], pose.rotation[2][row],
+                        pose.translation[row]);
   }
   return text + "0 0 0 1\n";
 }

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <thread>
 
 #include "../mesh/shapes.hpp"
@@ -63,6 +64,12 @@ TEST_F(BrokenBall, AssembleOfAFolderMatchesAndPutsItTogether) {
     EXPECT_TRUE(std::filesystem::exists(out + file)) << file;
   }
   EXPECT_EQ(read_file(out + "/run/assembly.json"), read_file(json_));
+  std::istringstream matrix(read_file(out + "/cloudcompare/fragment_01.ply.txt"));
+  std::size_t numbers = 0;
+  for (double number = 0; matrix >> number; ++numbers)
+    EXPECT_EQ(number, result["fragments"]["fragment_01.ply"]["pose"][numbers / 4][numbers % 4])
+        << "to the last bit";
+  EXPECT_EQ(numbers, 16U);
   // The glb's named nodes carry the transforms; the ply has all fragments' faces.
   std::size_t faces = 0;
   for (const auto& [name, fragment] : result["fragments"].items()) {
