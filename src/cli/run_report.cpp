@@ -298,15 +298,28 @@ void add_reasons(report::RunReport& report, const std::string& all, const store:
   }
 }
 
+/// A parameter as the options of rejoin batch have it; nullopt: it had no influence.
+std::optional<std::pair<std::string, std::string>> option_of(const std::string& name,
+                                                             const ordered_json& value,
+                                                             const ordered_json& all) {
+  const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+  if (name == "resolution" || name == "backend") return std::pair("--" + name, text);
+  if (name == "promising_only") return std::pair("--thorough", value == false ? "yes" : "no");
+  if (name == "max_candidates") return std::pair("poses kept of a pair", text);
+  if (name == "chains" && all.value("search", "") == "sweep") return std::nullopt;  // of the annealing
+  return std::pair(name, text);
+}
+
 void add_parameters(report::RunReport& report, const store::Run& run, const std::filesystem::path& folder) {
   const store::Parameters parameters = run.parameters();
   report.parameters = {{"run", folder.string()},
                        {"matched by", "rejoin " + parameters.version},
-                       {"seed", std::to_string(parameters.seed)}};
+                       {"--seed", std::to_string(parameters.seed)}};
   const ordered_json json = ordered_json::parse(parameters.json, nullptr, false);
   if (!json.is_object()) return;
-  for (const auto& [name, value] : json.items())
-    report.parameters.emplace_back(name, value.is_string() ? value.get<std::string>() : value.dump());
+  for (const auto& [name, value] : json.items()) {
+    if (const auto option = option_of(name, value, json)) report.parameters.push_back(*option);
+  }
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ struct PlantedRun {
     std::filesystem::create_directories(folder);
     const std::string gone = files.folder / "gone.ply";
     store::Run run = store::Run::write(folder);
-    run.begin({"0.1.0", R"({"resolution": 128})", 7},
+    run.begin({"0.1.0", R"({"search": "sweep", "resolution": 128, "chains": 8, "promising_only": true})", 7},
               {fragment("a.ply", files.a), fragment("b.ply", files.b), fragment("gone.ply", gone)});
     store::Pair pair;
     const auto list = run.fragments();
@@ -118,6 +118,15 @@ TEST(Report, WithoutAnAssemblySaysSo) {
   const json data = data_of(read_file(run.files.folder / "page.html"));
   EXPECT_TRUE(data["fragments"][0]["pose"].is_null());
   EXPECT_NE(data["fragments"][0]["reason"].get<std::string>().find("rejoin assemble"), std::string::npos);
+}
+
+TEST(Report, NamesParametersAsTheOptionsDo) {
+  const PlantedRun run;
+  ASSERT_EQ(testing::run({"report", run.folder, "--pictures", "0"}).exit_code, 0);
+  const json expected = json::parse(R"([["matched by", "rejoin 0.1.0"], ["--seed", "7"], ["search", "sweep"],
+                                        ["--resolution", "128"], ["--thorough", "no"]])");
+  const json parameters = data_of(read_file(run.page))["parameters"];
+  EXPECT_EQ(json(parameters.begin() + 1, parameters.end()), expected);
 }
 
 TEST(Report, GoesToStdoutAloneAndToDevices) {
