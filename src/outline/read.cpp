@@ -7,7 +7,6 @@
 #include <exception>
 #include <filesystem>
 #include <new>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <regex>
 
@@ -210,14 +209,6 @@ std::optional<std::string> doubt_resolutions(const std::vector<std::string>& fil
       most->second, most->first, least->second, least->first);
 }
 
-/// Whether JSON, whose text is UTF-8, can tell a name from others.
-bool fits_json(const std::string& name) {
-  using nlohmann::json;
-  const json text = name;
-  return text.dump(-1, ' ', false, json::error_handler_t::ignore) ==
-         text.dump(-1, ' ', false, json::error_handler_t::replace);
-}
-
 /// Adds what a file of a folder holds, or why it cannot be used.
 /// \return whether it can
 bool add_file(const fs::path& file, const ExtractOptions& options, PieceSet& all) {
@@ -225,12 +216,11 @@ bool add_file(const fs::path& file, const ExtractOptions& options, PieceSet& all
     all.unusable.push_back({file.filename().string(), reason});
     return false;
   };
-  if (!fits_json(file.filename().string()))  // results would mix two such pieces up
-    return unusable(file.string() + ": its name is no UTF-8; rename it");
   std::error_code ignored;
   if (fs::is_other(file, ignored))  // a pipe would be waited for
     return unusable(file.string() + ": is a pipe or device; take it out of the folder");
   try {
+    require_utf8_name(file);
     PieceSet set = read_pieces(file.string(), options);
     std::move(set.pieces.begin(), set.pieces.end(), std::back_inserter(all.pieces));
     std::move(set.notes.begin(), set.notes.end(), std::back_inserter(all.notes));

@@ -87,9 +87,8 @@ const char* mend_of(int code, const std::string& path) {
       return "move the file away and run rejoin batch again";
     case SQLITE_CANTOPEN:
     case SQLITE_READONLY:
-      return "check the folder and its permissions; a run whose newest results are still in run.sqlite-wal "
-             "is "
-             "read only where files can be made, so copy its folder to such a place";
+      return "check the folder and its permissions; while results are still in run.sqlite-wal, a run can be "
+             "read only where files can be made: copy its folder to such a place";
     default:
       return "check the folder and its permissions";
   }
