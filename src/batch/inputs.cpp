@@ -64,7 +64,7 @@ std::vector<std::string> find_scans(const fs::path& folder) {
   }
   if (names.size() < 2) {
     throw InputError(folder.string(), names.empty() ? "holds no scan" : "holds one scan only",
-                     "give a folder of ply, obj, stl, off, gltf, glb or drc files");
+                     "give a folder of ply, obj, stl, off, gltf, glb, drc, xyz or pts files");
   }
   for (const std::string& name : names) require_utf8_name(folder / name);
   std::sort(names.begin(), names.end());

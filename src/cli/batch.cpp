@@ -40,7 +40,7 @@ batch::Shard parse_shard(const std::string& text) {
 class BatchCommand final : public Command {
  public:
   void define(CLI::App& app) override {
-    app.add_option("DIR", inputs_, "folder of scans: ply, obj, stl, off, gltf, glb or drc")
+    app.add_option("DIR", inputs_, "folder of scans: ply, obj, stl, off, gltf, glb, drc, xyz or pts")
         ->required()
         ->group("Input");
     app.add_option("--out", out_, "folder of the run; goes on with what it holds")

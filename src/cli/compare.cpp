@@ -36,7 +36,9 @@ Rigid read_pose(const std::string& path) {
 class CompareCommand final : public Command {
  public:
   void define(CLI::App& app) override {
-    app.add_option("A", path_a_, "scan: ply, obj, stl, off, gltf, glb or drc")->required()->group("Input");
+    app.add_option("A", path_a_, "scan: ply, obj, stl, off, gltf, glb, drc, xyz or pts")
+        ->required()
+        ->group("Input");
     app.add_option("B", path_b_, "scan of the other fragment")->required()->group("Input");
     app.add_option("--pose", pose_, "JSON with \"pose\", B's coordinates to A's")
         ->type_name("FILE")

@@ -86,7 +86,9 @@ void require_ending(const char* option, const std::optional<std::string>& file, 
 class FacetsCommand final : public Command {
  public:
   void define(CLI::App& app) override {
-    app.add_option("A", path_, "scan: ply, obj, stl, off, gltf, glb or drc")->required()->group("Input");
+    app.add_option("A", path_, "scan: ply, obj, stl, off, gltf, glb, drc, xyz or pts")
+        ->required()
+        ->group("Input");
     app.add_option("--facets", painted_, "the PLY of --ply, painted: a colour a facet")
         ->type_name("FILE")
         ->group("Input");

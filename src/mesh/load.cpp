@@ -26,7 +26,8 @@ constexpr std::array kFormats{
     Format{".ply", "ply", detail::read_ply},  Format{".obj", "obj", detail::read_obj},
     Format{".stl", "stl", detail::read_stl},  Format{".off", "off", detail::read_off},
     Format{".glb", "glb", detail::read_gltf}, Format{".gltf", "gltf", detail::read_gltf},
-    Format{".drc", "drc", detail::read_drc},
+    Format{".drc", "drc", detail::read_drc},  Format{".xyz", "xyz", detail::read_xyz},
+    Format{".pts", "pts", detail::read_xyz},
 };
 
 const Format* find_format(const std::string& extension) {
@@ -40,7 +41,7 @@ const Format& format_of(const std::filesystem::path& path) {
   if (const Format* format = find_format(extension)) return *format;
   throw InputError(path.string(),
                    extension.empty() ? "has no file name extension" : "unknown extension " + extension,
-                   "use one of .ply .obj .stl .off .glb .gltf .drc");
+                   "use one of .ply .obj .stl .off .glb .gltf .drc .xyz .pts");
 }
 
 /// What a file's first bytes say that it is.

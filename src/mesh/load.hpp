@@ -1,4 +1,4 @@
-/// Reading of scans: PLY, OBJ, STL, OFF, glTF/GLB, Draco.
+/// Reading of scans: PLY, OBJ, STL, OFF, glTF/GLB, Draco, XYZ/PTS.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,5 @@
 // What goes out comes back, in every format; and files written by others are understood.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -363,6 +364,50 @@ TEST(Obj, ReadsTextOfAnySystem) {
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("line 5:"), std::string::npos) << error.what();
   }
+}
+
+TEST(Xyz, ReadsPointsWithNormalsAndColoursWhereverTheyStand) {
+  const TemporaryFolder folder;
+  Mesh sphere = test::sphere_cloud(1, 0.3F, 5);
+  const auto row = [](const auto& v) { return fmt::format("{} {} {} ", v.x, v.y, v.z); };
+  const auto text = [&](bool colours_first, const std::string& head, const std::string& extra) {
+    std::string result = head;
+    for (std::size_t i = 0; i < sphere.vertices.size(); ++i) {
+      const std::string colour = row(glm::u8vec3(10, i % 200, 250));
+      const std::string normal = row(sphere.normals[i]);
+      result +=
+          row(2.0F * sphere.vertices[i]) + extra + (colours_first ? colour + normal : normal + colour) + "\n";
+    }
+    return result;
+  };
+  for (const std::string& content :
+       {text(false, "", ""), text(true, "//X Y Z R G B Nx Ny Nz\n", ""),
+        text(false, "# made by a scanner\nx y z i nx ny nz r g b\r\n", "-17.5 ")}) {
+    SCOPED_TRACE(content.substr(0, 200));
+    const Loaded loaded = load(folder.write("a.xyz", content));
+    EXPECT_EQ(loaded.format, "xyz");
+    EXPECT_TRUE(loaded.mesh.is_cloud());
+    EXPECT_TRUE(loaded.warnings.empty());
+    ASSERT_EQ(loaded.mesh.vertices.size(), sphere.vertices.size());
+    ASSERT_EQ(loaded.mesh.colours.size(), sphere.vertices.size());
+    for (std::size_t i = 0; i < sphere.vertices.size(); ++i) {
+      EXPECT_LT(glm::distance(loaded.mesh.vertices[i], 2.0F * sphere.vertices[i]), 1e-6F);
+      EXPECT_LT(glm::distance(loaded.mesh.normals[i], sphere.normals[i]), 1e-5F);
+      EXPECT_EQ(loaded.mesh.colours[i], glm::u8vec3(10, i % 200, 250));
+    }
+  }
+}
+
+TEST(Xyz, ReadsTheCountOfAPtsFileAndItsColoursBehindTheIntensity) {
+  const TemporaryFolder folder;
+  const Mesh sphere = test::sphere_cloud(1, 0.1F, 6);
+  std::string text = std::to_string(sphere.vertices.size()) + "\n";
+  for (const glm::vec3& p : sphere.vertices) text += fmt::format("{} {} {} 17 1 2 3\n", p.x, p.y, p.z);
+  const Loaded loaded = load(folder.write("a.pts", text));
+  ASSERT_EQ(loaded.mesh.vertices.size(), sphere.vertices.size());
+  EXPECT_EQ(loaded.mesh.colours[7], glm::u8vec3(1, 2, 3));
+  ASSERT_EQ(loaded.warnings.size(), 1U);
+  EXPECT_NE(loaded.warnings[0].find("no normals"), std::string::npos) << loaded.warnings[0];
 }
 
 std::string base64(const std::string& bytes) {

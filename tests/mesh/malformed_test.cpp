@@ -54,7 +54,7 @@ std::string ply(const std::string& format, std::size_t vertices, std::size_t fac
 }
 
 TEST_F(Malformed, EmptyFile) {
-  for (const char* name : {"a.ply", "a.obj", "a.stl", "a.off", "a.glb", "a.gltf", "a.drc"}) {
+  for (const char* name : {"a.ply", "a.obj", "a.stl", "a.off", "a.glb", "a.gltf", "a.drc", "a.xyz"}) {
     expect(name, "", Kind::Input, "is empty");
   }
 }
@@ -80,7 +80,7 @@ TEST_F(Malformed, FilesUnderAnotherKindsName) {
 }
 
 TEST_F(Malformed, UnknownExtensionAndMissingFileAndFolder) {
-  expect("a.xyz", "0 0 0\n", Kind::Input, "unknown extension .xyz");
+  expect("a.abc", "0 0 0\n", Kind::Input, "unknown extension .abc");
   expect("scan", "0 0 0\n", Kind::Input, "no file name extension");
   expect_error(folder_ / "missing.ply", Kind::Io, "cannot be opened");
   expect_error(folder_ / "missing/a.ply", Kind::Io, "cannot be opened");
@@ -212,6 +212,18 @@ TEST_F(Malformed, WordsOfNoMeaningInAnObjFile) {
 TEST_F(Malformed, TextInUtf16) {
   expect("a.obj", std::string("\xFF\xFEv\0 \0", 6), Kind::Input, "is text in UTF-16; save it as UTF-8");
   expect("a.off", std::string("\xFE\xFF\0O\0F", 6), Kind::Input, "is text in UTF-16; save it as UTF-8");
+}
+
+TEST_F(Malformed, TextOfPoints) {
+  expect("a.xyz", "Dear colleague,\nthe scans are elsewhere.\n", Kind::Input,
+         "line 2: \"the\" is not a number");
+  expect("b.xyz", "0 0 0\n1 0 0 5\n", Kind::Input, "line 2: 4 numbers, where lines before have 3");
+  expect("c.xyz", "0 0\n1 0\n", Kind::Input, "line 1: three numbers expected, 2 found");
+  expect("d.pts", "4\n0 0 0\n1 0 0\n0 1 0\n", Kind::Io,
+         "its first line promises 4 points but the file ends after 3");
+  expect("e.pts", "3\n", Kind::Io, "its first line promises 3 points but the file ends after 0");
+  expect("f.xyz", "# nothing\n", Kind::Input, "has no vertices");
+  expect("g.xyz", "0 0 nan\n1 0 0\n0 1 0\n", Kind::Input, "vertex 0 is not a finite point");
 }
 
 TEST_F(Malformed, NoArea) {

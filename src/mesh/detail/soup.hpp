@@ -44,6 +44,7 @@ Soup read_stl(const Source& source);
 Soup read_off(const Source& source);
 Soup read_gltf(const Source& source);
 Soup read_drc(const Source& source);
+Soup read_xyz(const Source& source);
 
 /// Checks, triangulates, welds and cleans (see load()).
 Loaded clean(const Soup& soup, const std::string& name, Weld which = Weld::Places);

@@ -86,15 +86,15 @@ bool TextLines::next_line() {
   return false;
 }
 
-std::string_view TextLines::next_word() {
+std::string_view TextLines::peek_word() const {
   const std::size_t first = line_.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) {
-    line_ = {};
-    return {};
-  }
-  const std::size_t end = std::min(line_.find_first_of(kBlank, first), line_.size());
-  const std::string_view word = line_.substr(first, end - first);
-  line_ = line_.substr(end);
+  if (first == std::string_view::npos) return {};
+  return line_.substr(first, line_.find_first_of(kBlank, first) - first);
+}
+
+std::string_view TextLines::next_word() {
+  const std::string_view word = peek_word();
+  line_.remove_prefix(word.empty() ? line_.size() : word.data() + word.size() - line_.data());
   return word;
 }
 

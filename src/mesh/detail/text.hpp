@@ -22,6 +22,9 @@ class TextLines {
   /// Next word of this line; empty at its end.
   std::string_view next_word();
 
+  /// The same without going on.
+  std::string_view peek_word() const;
+
   /// Next word as a number; nullopt at the line's end.  \throws InputError the word is not a number
   std::optional<double> next_number();
 

@@ -1,0 +1,103 @@
+// Text of points alone: .xyz, and .pts, whose first line counts them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/error.hpp"
+#include "mesh/detail/colour.hpp"
+#include "mesh/detail/text.hpp"
+
+namespace rejoin::mesh::detail {
+namespace {
+
+/// All numbers of the file, line after line.
+struct Rows {
+  std::vector<double> numbers;
+  std::size_t columns = 0;
+
+  std::size_t size() const { return columns == 0 ? 0 : numbers.size() / columns; }
+  glm::dvec3 triple(std::size_t row, std::size_t column) const {
+    const double* const at = numbers.data() + row * columns + column;
+    return {at[0], at[1], at[2]};
+  }
+};
+
+/// What a first line of one number promises.
+using Promise = std::optional<std::size_t>;
+
+void read_row(TextLines& lines, Rows& rows, Promise& promised) {
+  const std::size_t before = rows.numbers.size();
+  while (const std::optional<double> value = lines.next_number()) rows.numbers.push_back(*value);
+  const std::size_t count = rows.numbers.size() - before;
+  if (before == 0 && count == 1 && !promised) {
+    promised = to_index(rows.numbers[0]);
+    rows.numbers.clear();
+    return;
+  }
+  if (before == 0) rows.columns = count;
+  if (count < 3) lines.fail(fmt::format("three numbers expected, {} found", count));
+  if (count != rows.columns)
+    lines.fail(fmt::format("{} numbers, where lines before have {}", count, rows.columns));
+}
+
+Rows read_rows(const Source& source) {
+  TextLines lines(source);
+  Rows rows;
+  Promise promised;
+  for (bool first = true; lines.next_line(); first = false) {
+    // Names of the columns, as "//X Y Z" or "x y z".
+    if (first && !to_number(lines.peek_word())) continue;
+    read_row(lines, rows, promised);
+  }
+  if (promised && rows.size() < *promised) {
+    throw IoError(
+        source.name,
+        fmt::format("its first line promises {} points but the file ends after {}", *promised, rows.size()),
+        "copy or export the file again");
+  }
+  return rows;
+}
+
+/// The first of the last three columns together, behind the coordinates, that are in every line what `fits` says; 0 if there are none.
+template <class Fits>
+std::size_t find_triple(const Rows& rows, const Fits& fits) {
+  for (std::size_t column = rows.columns; column >= 6; --column) {
+    bool good = true;
+    for (std::size_t row = 0; good && row < rows.size(); ++row) good = fits(rows.triple(row, column - 3));
+    if (good) return column - 3;
+  }
+  return 0;
+}
+
+/// Unit vectors, to what few digits leave of them; zero where a program knew none.
+bool is_normal(const glm::dvec3& v) {
+  constexpr double kSlack = 0.02;
+  const double length = glm::length(v);
+  return length == 0 || std::abs(length - 1) < kSlack;
+}
+
+bool is_colour(const glm::dvec3& v) {
+  return v == glm::round(v) && glm::all(glm::greaterThanEqual(v, glm::dvec3(0))) &&
+         glm::all(glm::lessThanEqual(v, glm::dvec3(255)));
+}
+
+}  // namespace
+
+Soup read_xyz(const Source& source) {
+  const Rows rows = read_rows(source);
+  Soup soup;
+  const std::size_t normal = find_triple(rows, is_normal);
+  const std::size_t colour = find_triple(rows, is_colour);
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    soup.points.push_back(rows.triple(row, 0));
+    if (normal != 0) soup.normals.emplace_back(rows.triple(row, normal));
+    if (colour != 0 && colour != normal) soup.colours.push_back(to_bytes(rows.triple(row, colour)));
+  }
+  return soup;
+}
+
+}  // namespace rejoin::mesh::detail
