@@ -284,7 +284,9 @@ void clean_cloud(Loaded& loaded, const std::string& name) {
     loaded.warnings.push_back(
         fmt::format("{}: dropped {} of {} points without a usable normal", name, dropped, count));
   }
-  if (const std::size_t strays = drop_stray_points(mesh); strays > 0) {
+  NeighbourLists near = neighbours_of(mesh.vertices);
+  if (const std::size_t strays = drop_stray_points(mesh, near); strays > 0) {
+    near = neighbours_of(mesh.vertices);
     loaded.warnings.push_back(
         fmt::format("{}: dropped {} of {} points that lie apart from the rest (remove strays in the scanning "
                     "software)",
@@ -296,12 +298,12 @@ void clean_cloud(Loaded& loaded, const std::string& name) {
   }
   require_usual_size(mesh, name);
   if (mesh.normals.empty()) {
-    mesh.normals = estimate_normals(mesh.vertices);
+    mesh.normals = estimate_normals(mesh.vertices, near);
     normalize_all(mesh.normals);
     return;
   }
   normalize_all(mesh.normals);
-  switch (check_normals(mesh)) {
+  switch (check_normals(mesh, near)) {
     case NormalsFound::Good:
       break;
     case NormalsFound::InsideOut:

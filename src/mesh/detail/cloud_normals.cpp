@@ -1,5 +1,6 @@
 #include "mesh/detail/cloud_normals.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -10,31 +11,19 @@
 #include "core/parallel.hpp"
 #include "mesh/detail/local_fit.hpp"
 #include "mesh/detail/outlook.hpp"
-#include "mesh/point_index.hpp"
 #include "mesh/surface.hpp"
 
 namespace rejoin::mesh::detail {
 namespace {
 
-constexpr std::size_t kNeighbours = 12;
+constexpr float kOpposite = -0.5F;  // cosine of normals
+constexpr double kStray = 5e-4;     // share of neighbours with opposite normals that a cloud is let pass with
 constexpr double kAgreeing = 0.95;  // share of good normals that turning along the surface leaves, or turns
 constexpr double kBetter = 0.2;     // of all rays, that leave from the front and not from the back
 
-using Lists = std::vector<std::vector<std::uint32_t>>;
-
-/// The k nearest of every point, itself among them.
-Lists nearest_of(const std::vector<glm::vec3>& points) {
-  const PointIndex index(points);
-  Lists lists(points.size());
-  parallel_for(points.size(), 512, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) index.nearest(points[i], kNeighbours, lists[i]);
-  });
-  return lists;
-}
-
 /// Made symmetric, so that a walk reaches whole parts.
-Lists mutual(const Lists& lists) {
-  Lists both = lists;
+NeighbourLists mutual(const NeighbourLists& lists) {
+  NeighbourLists both = lists;
   for (std::uint32_t i = 0; i < lists.size(); ++i) {
     for (const std::uint32_t k : lists[i]) both[k].push_back(i);
   }
@@ -55,7 +44,7 @@ struct Step {
 /// Turns normals to agree with each other within every part.
 class Walker {
  public:
-  Walker(const Lists& neighbours, std::vector<glm::vec3>& normals)
+  Walker(const NeighbourLists& neighbours, std::vector<glm::vec3>& normals)
       : neighbours_(neighbours), normals_(normals), decided_(normals.size(), false) {}
 
   bool reached(std::uint32_t i) const { return decided_[i]; }
@@ -83,7 +72,7 @@ class Walker {
     }
   }
 
-  const Lists& neighbours_;
+  const NeighbourLists& neighbours_;
   std::vector<glm::vec3>& normals_;
   std::vector<bool> decided_;
   std::priority_queue<Step, std::vector<Step>, std::greater<>> steps_;
@@ -120,8 +109,9 @@ bool points_inwards(const std::vector<std::uint32_t>& part, const std::vector<gl
   return outwards < 0;
 }
 
-void turn_along(const Lists& lists, const std::vector<glm::vec3>& points, std::vector<glm::vec3>& normals) {
-  const Lists neighbours = mutual(lists);
+void turn_outwards(const NeighbourLists& lists, const std::vector<glm::vec3>& points,
+                   std::vector<glm::vec3>& normals) {
+  const NeighbourLists neighbours = mutual(lists);
   Walker walker(neighbours, normals);
   for (std::uint32_t seed = 0; seed < points.size(); ++seed) {
     if (walker.reached(seed)) continue;
@@ -131,7 +121,26 @@ void turn_along(const Lists& lists, const std::vector<glm::vec3>& points, std::v
   }
 }
 
-/// How much more can be seen from the front of the surface through a cloud than from its back.
+/// Share of neighbours whose normals point opposite ways: hardly any, but on both sides of a wall as thin as the points lie apart.
+double opposite_share(const std::vector<glm::vec3>& normals, const NeighbourLists& near) {
+  std::size_t opposite = 0;
+  std::size_t all = 0;
+  for (std::uint32_t i = 0; i < normals.size(); ++i) {
+    for (const std::uint32_t k : near[i]) opposite += glm::dot(normals[i], normals[k]) < kOpposite ? 1 : 0;
+    all += near[i].size();
+  }
+  return static_cast<double>(opposite) / static_cast<double>(all);
+}
+
+/// Share of normals that are the same both times, or turned, whichever are more.
+double agreement(const std::vector<glm::vec3>& before, const std::vector<glm::vec3>& after) {
+  std::size_t same = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) same += glm::dot(before[i], after[i]) > 0 ? 1 : 0;
+  const double share = static_cast<double>(same) / static_cast<double>(before.size());
+  return std::max(share, 1 - share);
+}
+
+/// What can be seen from the surface through a cloud.
 Outlook outlook_of(const Mesh& cloud) {
   const Mesh surface = surface_of_cloud(cloud);
   if (surface.faces.empty() || !(surface_area(surface) > 0)) return {};
@@ -149,33 +158,26 @@ double swelling(const Mesh& cloud) {
 
 }  // namespace
 
-std::vector<glm::vec3> estimate_normals(const std::vector<glm::vec3>& points) {
-  const Lists lists = nearest_of(points);
+std::vector<glm::vec3> estimate_normals(const std::vector<glm::vec3>& points, const NeighbourLists& near) {
   std::vector<glm::vec3> normals(points.size());
   parallel_for(points.size(), 512, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) normals[i] = plane_normal(points, lists[i]);
+    for (std::size_t i = first; i < last; ++i) normals[i] = plane_normal(points, near[i]);
   });
-  turn_along(lists, points, normals);
+  turn_outwards(near, points, normals);
   return normals;
 }
 
-void turn_outwards(const std::vector<glm::vec3>& points, std::vector<glm::vec3>& normals) {
-  turn_along(nearest_of(points), points, normals);
-}
-
-NormalsFound check_normals(Mesh& cloud) {
-  Mesh turned = cloud;
-  turn_outwards(turned.vertices, turned.normals);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < cloud.normals.size(); ++i)
-    kept += glm::dot(cloud.normals[i], turned.normals[i]) > 0 ? 1 : 0;
-  const double share = static_cast<double>(kept) / static_cast<double>(cloud.normals.size());
-  if (std::max(share, 1 - share) < kAgreeing) {
-    const Outlook before = outlook_of(cloud);
-    const Outlook after = outlook_of(turned);
-    if (after.front - after.back > before.front - before.back + kBetter) {
-      cloud.normals = std::move(turned.normals);
-      return NormalsFound::Mixed;
+NormalsFound check_normals(Mesh& cloud, const NeighbourLists& near) {
+  if (opposite_share(cloud.normals, near) > kStray) {
+    Mesh turned = cloud;
+    turn_outwards(near, turned.vertices, turned.normals);
+    if (agreement(cloud.normals, turned.normals) < kAgreeing) {
+      const Outlook before = outlook_of(cloud);
+      const Outlook after = outlook_of(turned);
+      if (after.front - after.back > before.front - before.back + kBetter) {
+        cloud.normals = std::move(turned.normals);
+        return NormalsFound::Mixed;
+      }
     }
   }
   if (swelling(cloud) >= 0 || !is_inside_out(outlook_of(cloud))) return NormalsFound::Good;

@@ -9,7 +9,6 @@
 #include "core/components.hpp"
 #include "core/median.hpp"
 #include "core/parallel.hpp"
-#include "mesh/point_index.hpp"
 
 namespace rejoin::mesh::detail {
 namespace {
@@ -18,7 +17,6 @@ constexpr double kSmall = 0.01;  // of the whole area, or of all points
 constexpr double kApart = 0.1;   // of the diagonal of the larger parts' box
 constexpr double kTable = 0.3;   // of the whole area, at least
 constexpr double kFlat = 0.995;  // of a part's area that is left of it when looked at from the front
-constexpr std::size_t kNeighbours = 12;
 constexpr float kSparse = 2.5F;  // times the reach that is usual among its neighbours
 
 /// Box and weight of a part; of nothing at first.
@@ -120,36 +118,25 @@ bool is_table(const Part& part, double all) {
          glm::length(part.facing) > kFlat * part.weight;
 }
 
-/// The nearest others of every point of a cloud.
-struct Surroundings {
-  std::vector<std::vector<std::uint32_t>> near;  ///< nearest first
-  std::vector<float> reach;                      ///< distance of the furthest of them
-};
-
-Surroundings surroundings_of(const std::vector<glm::vec3>& points) {
-  const PointIndex index(points);
-  Surroundings result{std::vector<std::vector<std::uint32_t>>(points.size()),
-                      std::vector<float>(points.size())};
-  parallel_for(points.size(), 512, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      std::vector<std::uint32_t>& near = result.near[i];
-      index.nearest(points[i], kNeighbours + 1, near);
-      std::erase(near, static_cast<std::uint32_t>(i));
-      result.reach[i] = glm::distance(points[i], points[near.back()]);
-    }
-  });
+/// Distance of every point from the furthest of its neighbours.
+std::vector<float> reaches(const std::vector<glm::vec3>& points, const NeighbourLists& near) {
+  std::vector<float> result(points.size());
+  for (std::size_t i = 0; i < result.size(); ++i)
+    result[i] = glm::distance(points[i], points[near[i].back()]);
   return result;
 }
 
 /// What is usual among every point's neighbours.
-std::vector<float> usual_reach(const Surroundings& around) {
-  std::vector<float> usual(around.reach.size());
+std::vector<float> usual_reach(const std::vector<float>& reach, const NeighbourLists& near) {
+  std::vector<float> usual(reach.size());
   parallel_for(usual.size(), 512, [&](std::size_t first, std::size_t last) {
-    std::vector<float> reaches;
+    std::vector<float> around;
     for (std::size_t i = first; i < last; ++i) {
-      reaches.clear();
-      for (const std::uint32_t k : around.near[i]) reaches.push_back(around.reach[k]);
-      usual[i] = median(reaches);
+      around.clear();
+      for (const std::uint32_t k : near[i]) {
+        if (k != i) around.push_back(reach[k]);
+      }
+      usual[i] = median(around);
     }
   });
   return usual;
@@ -191,17 +178,17 @@ Specks drop_specks(Mesh& mesh) {
   return specks;
 }
 
-std::size_t drop_stray_points(Mesh& cloud) {
+std::size_t drop_stray_points(Mesh& cloud, const NeighbourLists& near) {
   const std::size_t count = cloud.vertices.size();
   if (count <= 4 * kNeighbours) return 0;
-  const Surroundings around = surroundings_of(cloud.vertices);
-  const std::vector<float> usual = usual_reach(around);
+  const std::vector<float> reach = reaches(cloud.vertices, near);
+  const std::vector<float> usual = usual_reach(reach, near);
   std::vector<bool> dropped(count);
-  for (std::size_t i = 0; i < count; ++i) dropped[i] = around.reach[i] > kSparse * usual[i];
+  for (std::size_t i = 0; i < count; ++i) dropped[i] = reach[i] > kSparse * usual[i];
 
   Components components(count);
   for (std::uint32_t i = 0; i < count; ++i) {
-    for (const std::uint32_t k : around.near[i]) {
+    for (const std::uint32_t k : near[i]) {
       const float step = glm::distance(cloud.vertices[i], cloud.vertices[k]);
       if (!dropped[i] && !dropped[k] && step <= kSparse * usual[i]) components.unite(i, k);
     }

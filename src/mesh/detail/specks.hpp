@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include "mesh/detail/neighbour_lists.hpp"
 #include "mesh/mesh.hpp"
 
 namespace rejoin::mesh::detail {
@@ -22,7 +23,8 @@ Specks drop_specks(Mesh& mesh);
 /// Drops the points of a cloud that belong to no surface: those with an emptier neighbourhood than their neighbours have
 /// (by more than 2.5; after the local outlier factor, Breunig et al. 2000), and small groups far from the rest as drop_specks()
 /// does (less than 1 % of the points).
+/// \param near  neighbours_of() the cloud's points
 /// \return how many
-std::size_t drop_stray_points(Mesh& cloud);
+std::size_t drop_stray_points(Mesh& cloud, const NeighbourLists& near);
 
 }  // namespace rejoin::mesh::detail
