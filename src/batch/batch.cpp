@@ -92,8 +92,9 @@ class Work {
     for (const store::Fragment& fragment : run_.fragments()) fragments_[fragment.name] = fragment;
     count_done();
     listener_.on_start(forgotten, progress_);
-    const std::string models = told_of_models(inputs_);
-    if (!models.empty()) listener_.on_warning(models, progress_);
+    for (const std::string& left_out : {told_of_models(inputs_), told_of_folders(inputs_)}) {
+      if (!left_out.empty()) listener_.on_warning(left_out, progress_);
+    }
     for (const auto& [copy, first] : copies_) {
       if (fragments_.count(copy) == 0) continue;
       listener_.on_warning(store::told_of_copy(copy, first), progress_);

@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 
+#include "batch/shelf.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/parallel.hpp"
@@ -17,6 +18,7 @@
 #include "mesh/files.hpp"
 #include "mesh/load.hpp"
 #include "mesh/save.hpp"
+#include "store/run.hpp"
 
 namespace rejoin::batch {
 namespace fs = std::filesystem;
@@ -29,6 +31,21 @@ bool is_scan(const fs::directory_entry& entry) {
     return false;  // hidden, as macOS leaves one beside every file
   if (std::ranges::find(mesh::kSceneNames, entry.path().filename()) != mesh::kSceneNames.end()) return false;
   return mesh::has_scan_name(entry.path());
+}
+
+bool holds_scans(const fs::path& folder) {
+  std::error_code problem;
+  for (fs::directory_iterator entry(folder, problem), end; !problem && entry != end;
+       entry.increment(problem)) {
+    if (is_scan(*entry)) return true;
+  }
+  return false;
+}
+
+/// Whether it is the folder in which the run around it keeps its surfaces.
+bool is_cache(const fs::path& folder) {
+  std::error_code ignored;
+  return folder.filename() == kCacheName && fs::exists(folder.parent_path() / store::kFileName, ignored);
 }
 
 void add_bytes(const fs::path& path, XXH3_state_t& state) {
@@ -64,7 +81,9 @@ std::vector<std::string> find_scans(const fs::path& folder) {
   }
   if (names.size() < 2) {
     throw InputError(folder.string(), names.empty() ? "holds no scan" : "holds one scan only",
-                     "give a folder of ply, obj, stl, off, gltf, glb, drc, xyz or pts files");
+                     told_of_folders(folder).empty()
+                         ? "give a folder of ply, obj, stl, off, gltf, glb, drc, xyz or pts files"
+                         : "there are scans in folders below: move those up, or give one of these");
   }
   for (const std::string& name : names) require_utf8_name(folder / name);
   std::sort(names.begin(), names.end());
@@ -82,6 +101,23 @@ std::string told_of_models(const fs::path& folder) {
   return fmt::format(
       "{}: left out, as rejoin writes models of several fragments under such names (a scan needs another)",
       names);
+}
+
+std::string told_of_folders(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code problem;
+  for (fs::directory_iterator entry(folder, problem), end; !problem && entry != end;
+       entry.increment(problem)) {
+    std::error_code ignored;
+    const fs::path& path = entry->path();
+    if (path.filename().string().starts_with('.') || !entry->is_directory(ignored)) continue;
+    if (!is_cache(path) && holds_scans(path)) names.push_back(path.filename().string());
+  }
+  if (names.empty()) return "";
+  std::sort(names.begin(), names.end());
+  return fmt::format("{} with scans in {} ({}{}) left out: move those up that are to be matched, too",
+                     counted(names.size(), "folder"), folder.string(), names.front(),
+                     names.size() == 1 ? "" : ", ...");
 }
 
 std::string content_hash(const fs::path& path) {

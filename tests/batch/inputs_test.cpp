@@ -39,6 +39,26 @@ TEST_F(Inputs, ScansAreFoundByExtensionInAnyCaseAndSorted) {
       << told_of_models(folder_);
 }
 
+TEST_F(Inputs, FoldersBelowWithScansAreTold) {
+  for (const char* name : {"notes", "result", "fragments", ".Trash"}) fs::create_directory(folder_ / name);
+  put("run.sqlite", "");
+  put("notes/find.txt", "x");
+  put("result/joined.ply", "x");
+  put("fragments/kept.drc", "x");
+  put(".Trash/old.ply", "x");
+  EXPECT_EQ(told_of_folders(folder_), "") << "no scans, a model, what a run keeps, and what is hidden";
+  fs::create_directory(folder_ / "trench 2");
+  put("trench 2/a.ply", "x");
+  EXPECT_EQ(told_of_folders(folder_).find("1 folder with scans in "), 0U) << told_of_folders(folder_);
+  EXPECT_NE(told_of_folders(folder_).find("(trench 2) left out"), std::string::npos);
+  try {
+    find_scans(folder_);
+    FAIL() << "it holds no scan itself";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("folders below"), std::string::npos) << error.what();
+  }
+}
+
 TEST_F(Inputs, TooFewScansAreAnError) {
   EXPECT_THROW(find_scans(folder_), InputError);
   put("a.ply", "x");
