@@ -108,6 +108,7 @@ class Assembler {
     for (std::size_t k = 0; k < pieces_.size(); ++k) result.placements[k].pose = growth_.poses[k];
     tell_confidence(result);
     tell_reasons(result);
+    tell_parted_objects(result);
     tell_broken_wishes(result);
     result.cancelled = context.cancelled();
     return result;
@@ -308,6 +309,22 @@ class Assembler {
                            ? "its best join is one that must not be: with {{{}}}, score {:.3f}"
                            : "no join is sure: the best is with {{{}}}, score {:.3f}";
     return fmt::format(fmt::runtime(said), best->a == piece ? best->b : best->a, best->score);
+  }
+
+  /// Sure joins between two objects that cannot lie as they say, the strongest of each two: often a second scan of pieces makes an
+  /// object of its own.
+  void tell_parted_objects(Result& result) const {
+    std::set<std::pair<int, int>> told;
+    for (const Rejection& rejection : growth_.rejected) {
+      const Link& link = links_[rejection.link];
+      const auto groups = std::minmax(result.placements[link.a].group, result.placements[link.b].group);
+      if (rejection.why != Rejection::Why::Overlap || link.score < options_.sure) continue;
+      if (groups.first < 0 || groups.first == groups.second || !told.insert(groups).second) continue;
+      result.doubts.push_back(
+          fmt::format("{{{}}} and {{{}}} join (score {:.3f}) but are put into two objects, as that would put "
+                      "{{{}}} and {{{}}} into each other: are these two scans of one piece?",
+                      link.a, link.b, link.score, rejection.a, rejection.b));
+    }
   }
 
   void tell_broken_wishes(Result& result) const {

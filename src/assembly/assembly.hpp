@@ -61,7 +61,8 @@ struct Result {
   std::vector<Join> joins;            ///< strongest first
   int groups = 0;                     ///< numbered from 0, largest first
   std::vector<std::string>
-      warnings;            ///< constraints that could not be kept; fragments as in Placement::reason
+      warnings;                     ///< constraints that could not be kept; fragments as in Placement::reason
+  std::vector<std::string> doubts;  ///< sure joins that part two objects; fragments likewise
   bool cancelled = false;  ///< stopped early; what is there is consistent but may be less than possible
 };
 

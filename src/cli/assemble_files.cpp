@@ -85,6 +85,14 @@ ordered_json joins_json(const AssembleInput& input, const assembly::Result& resu
   return joins;
 }
 
+std::vector<std::string> with_names(const std::vector<std::string>& texts,
+                                    const std::vector<std::string>& names) {
+  std::vector<std::string> result;
+  result.reserve(texts.size());
+  for (const std::string& text : texts) result.push_back(cli::with_names(text, names));
+  return result;
+}
+
 /// As the user's file has them, and what became of them.
 ordered_json constraints_json(const std::vector<std::string>& names, const assembly::Constraints& constraints,
                               const assembly::Result& result) {
@@ -95,12 +103,10 @@ ordered_json constraints_json(const std::vector<std::string>& names, const assem
   };
   ordered_json poses = ordered_json::object();
   for (const auto& [fragment, pose] : constraints.pinned) poses[names[fragment]] = to_json(pose);
-  ordered_json problems = ordered_json::array();
-  for (const std::string& warning : result.warnings) problems.push_back(with_names(warning, names));
   return {{"must_join", pairs(constraints.must_join)},
           {"must_not_join", pairs(constraints.must_not_join)},
           {"poses", poses},
-          {"problems", problems}};
+          {"problems", with_names(result.warnings, names)}};
 }
 
 std::vector<report::PlacedFragment> placed_fragments(const AssembleInput& input,
@@ -138,7 +144,8 @@ std::vector<std::string> warnings_of(const AssembleInput& input, const assembly:
   std::vector<std::string> list = input.warnings;
   const std::string missing = store::told(input.remains);
   if (!missing.empty()) list.push_back(missing);
-  for (const std::string& warning : result.warnings) list.push_back(with_names(warning, input.names));
+  for (const auto* texts : {&result.warnings, &result.doubts})
+    for (const std::string& text : with_names(*texts, input.names)) list.push_back(text);
   return list;
 }
 
@@ -169,6 +176,7 @@ std::string assembly_json(const AssembleInput& input, const assembly::Constraint
                   {"groups", result.groups},
                   {"pairs_missing", input.remains.missing},
                   {"constraints", constraints_json(input.names, constraints, result)},
+                  {"doubts", with_names(result.doubts, input.names)},
                   {"warnings", warnings_of(input, result)},
                   {"interrupted", result.cancelled},
                   {"version", kVersion}});

@@ -70,6 +70,7 @@ class AssemblyReader {
     const ordered_json joins = json.value("joins", ordered_json::array());
     for (const ordered_json& join : joins) use(join);
     if (json.contains("constraints")) tell_constraints(json["constraints"]);
+    tell(json.value("doubts", ordered_json::array()));
     return change_;
   }
 
@@ -156,9 +157,12 @@ class AssemblyReader {
     if (!poses.is_object()) refuse(path_, "\"poses\" is no object");
     for (const auto& [name, pose] : poses.items()) posed += (posed.empty() ? "" : ", ") + name_of(name);
     if (!posed.empty()) report_.parameters.emplace_back("pose given", posed);
-    const ordered_json problems = json.value("problems", ordered_json::array());
-    for (const ordered_json& problem : problems)
-      if (problem.is_string()) report_.warnings.push_back(problem.get<std::string>());
+    tell(json.value("problems", ordered_json::array()));
+  }
+
+  void tell(const ordered_json& warnings) const {
+    for (const ordered_json& warning : warnings)
+      if (warning.is_string()) report_.warnings.push_back(warning.get<std::string>());
   }
 
   std::string name_of(const ordered_json& name) const {

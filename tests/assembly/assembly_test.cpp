@@ -73,6 +73,27 @@ TEST(Assemble, OfTwoScansOfOnePieceOneIsPlacedAndTheOtherToldToLieInIt) {
   }
 }
 
+TEST(Assemble, SecondScansOfTwoPiecesMakeAnObjectOfTheirOwnWhichIsTold) {
+  Box box = ball();
+  const Corner corner = corner_of(box);
+  const std::size_t again = box.fragments.size();
+  for (const std::size_t piece : {corner.a, corner.b}) {
+    const mesh::Mesh scan = box.fragments[piece].surface;
+    box.fragments.push_back(match::prepare("again", scanned_again(scan, Rigid{}), Context()));
+    box.to_world.push_back(box.to_world[piece]);
+  }
+  std::vector<Link> links = box.all_true(0.9999);
+  links.push_back(box.true_link(again, again + 1, 0.999));
+  EXPECT_TRUE(run(box, links).doubts.empty()) << "nothing says whose scans they are";
+  links.push_back(box.true_link(corner.c, again, 0.995));
+  links.push_back(box.true_link(corner.c, again + 1, 0.994));
+  const Result result = run(box, links);
+  ASSERT_EQ(result.groups, 2);
+  EXPECT_EQ(result.placements[again].group, 1);
+  ASSERT_EQ(result.doubts.size(), 1U) << "one for two objects, however many joins there are between them";
+  EXPECT_NE(result.doubts.front().find("two scans of one piece"), std::string::npos) << result.doubts.front();
+}
+
 TEST(Assemble, AFalseJoinGivesWayToTheLoopsThatContradictIt) {
   const Corner corner = corner_of(ball());
   std::vector<Link> links = ball().all_true(0.995);

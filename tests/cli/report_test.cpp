@@ -192,8 +192,10 @@ TEST(Report, TellsThatScansCameOrWentSinceTheAssembly) {
 TEST(Report, ShowsWhatTheUserAskedForAndWhatCouldNotBeKept) {
   const PlantedRun run;
   const std::string problem = "a.ply and gone.ply must join, but at none of their poses they fit";
+  const std::string doubt = "a.ply and b.ply are put into two objects";
   const json assembly = {{"schema", "rejoin.assembly/1"},
                          {"fragments", json::object()},
+                         {"doubts", {doubt}},
                          {"constraints",
                           {{"must_join", json::array({{"a.ply", "gone.ply"}, {"a.ply", "b.ply"}})},
                            {"must_not_join", json::array()},
@@ -210,6 +212,7 @@ TEST(Report, ShowsWhatTheUserAskedForAndWhatCouldNotBeKept) {
   EXPECT_TRUE(has({"must join", "a.ply + gone.ply, a.ply + b.ply"})) << parameters;
   EXPECT_TRUE(has({"pose given", "b.ply"})) << parameters;
   EXPECT_EQ(data["warnings"][0], problem);
+  EXPECT_EQ(data["warnings"][1], doubt);
 }
 
 TEST(Report, RefusesAnAssemblyThatIsNoneOfThisRun) {
