@@ -16,6 +16,7 @@ namespace {
 constexpr std::size_t kCoarseFaces = 40000;
 /// Edges across a wall: with fewer, a break has hardly any shape to be known by (docs/results.md, coarse meshes of sherds).
 constexpr double kEdgesAcross = 3.5;
+constexpr double kFromOneSide = 0.5;  // share of a surface without anything behind it
 
 /// Of equilateral triangles as large as the surface's are on average.
 double mean_edge(const mesh::Mesh& surface) {
@@ -30,6 +31,16 @@ void doubt_coarse_walls(Fragment& fragment) {
       fmt::format("{}: its mesh has {:.2f} edges across the wall ({:.3g} thick); joins are hardly sure with "
                   "fewer than {:.1f}: scan or export it more finely",
                   fragment.path, across, fragment.facets.wall_thickness, kEdgesAcross));
+}
+
+/// Walls of a sherd that is taken for a solid piece lie on those of others as breaks do.
+void doubt_scans_from_one_side(Fragment& fragment) {
+  if (fragment.facets.wall_thickness > 0 || fragment.facets.unbacked < kFromOneSide) return;
+  fragment.warnings.push_back(fmt::format(
+      "{}: nothing lies behind {:.0f} % of it, as of a scan from one side, and it is taken for a "
+      "solid piece: if it is a sherd, its wall may be joined as a break; scan the other side, too, "
+      "or paint the breaks (rejoin facets)",
+      fragment.path, 100.0 * fragment.facets.unbacked));
 }
 
 }  // namespace
@@ -68,6 +79,7 @@ Fragment prepare(std::string path, mesh::Mesh scan, const Context& context) {
   fragment.facets = mesh::segment(fragment.surface, fragment.diameter);
   fragment.sample_of_face = mesh::sample_of_faces(fragment.facets, fragment.coarse);
   doubt_coarse_walls(fragment);
+  doubt_scans_from_one_side(fragment);
   clock.lap("facets");
   context.report("prepare " + fragment.path, 1.0);
   return fragment;

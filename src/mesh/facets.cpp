@@ -208,7 +208,8 @@ detail::OpenWalls open_walls(const Mesh& mesh, const Segmentation& s, const List
 Lists classify(const Mesh& mesh, double size, Segmentation& s) {
   Look seen = look(mesh, kSamples, s);
   s.wall_thickness = wall_thickness(seen.rays, size);
-  const bool open = meets_nothing(seen.rays) > kOpen;
+  s.unbacked = meets_nothing(seen.rays);
+  const bool open = s.unbacked > kOpen;
   if (open && s.wall_thickness == 0) {
     const double width = open_walls(mesh, s, seen.near, kWideOfSize * size).break_width;
     if (width < kMostOfOpen * size) s.wall_thickness = width;

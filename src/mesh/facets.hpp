@@ -41,7 +41,8 @@ struct Segmentation : Cut {
       roughness;  ///< per sample: rms distance from the local quadric, as a fraction of its radius
   Cut creased;  ///< solid pieces: cut once more, along the creases; no facets in thin walls and painted facets
   double wall_thickness = 0;  ///< most frequent wall thickness, mesh units; 0 for a solid piece
-  double sample_area = 0;     ///< surface that a sample stands for, squared mesh units
+  double unbacked = 0;     ///< share of the surface behind which nothing lies: large for a scan from one side
+  double sample_area = 0;  ///< surface that a sample stands for, squared mesh units
 };
 
 /// Segments a surface.

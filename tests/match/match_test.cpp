@@ -38,6 +38,19 @@ TEST(Prepare, TellsOfAMeshTooCoarseForItsWall) {
   EXPECT_NE(coarse.warnings[0].find("coarse: its mesh has "), std::string::npos) << coarse.warnings[0];
 }
 
+TEST(Prepare, TellsOfAScanFromOneSideThatIsTakenForASolidPiece) {
+  const mesh::Mesh block = testing::half_block(false, 48);
+  EXPECT_TRUE(prepare("whole", block, Context{}).warnings.empty());
+  mesh::Mesh seen = block;
+  std::erase_if(seen.faces, [&](const glm::uvec3& f) {
+    const glm::vec3 a = block.vertices[f.x];
+    return glm::dot(glm::cross(block.vertices[f.y] - a, block.vertices[f.z] - a), glm::vec3(0, 0, -1)) <= 0;
+  });
+  const Fragment cut = prepare("cut", seen, Context{});
+  ASSERT_EQ(cut.warnings.size(), 1U);
+  EXPECT_NE(cut.warnings[0].find("cut: nothing lies behind "), std::string::npos) << cut.warnings[0];
+}
+
 TEST(Match, PlainBlockDoesNotJoin) {
   // Flat sides of equal size everywhere, nothing that fits the cut: the paper's trivial solutions must not count.
   const Pair pair = make_pair(4);
