@@ -125,6 +125,19 @@ TEST_F(BrokenBall, AssembleOfAFolderTellsAScanThatCannotBeUsedByItsExitCode) {
   EXPECT_EQ(result["unplaced"][0], "notes.ply");
 }
 
+TEST_F(BrokenBall, AssemblyOfARunTellsAScanOfAnotherUnit) {
+  const std::string metres = scans_ + "/fragment_02.ply";
+  mesh::Mesh scan = mesh::load(metres).mesh;
+  for (glm::vec3& vertex : scan.vertices) vertex *= 1e-3F;
+  mesh::save(metres, scan);
+  const std::string kept = folder_ / "run";
+  ASSERT_EQ(run({"batch", scans_, "--out", kept}).exit_code, 0);
+  const Finished finished = run({"assemble", kept, "--json", json_});
+  EXPECT_NE(finished.err.find("fragment_02.ply (diameter"), std::string::npos) << finished.err;
+  EXPECT_NE(ordered_json::parse(read_file(json_))["warnings"].dump().find("fragment_02.ply (diameter"),
+            std::string::npos);
+}
+
 TEST_F(BrokenBall, WhatIsNotThereIsNeitherRunNorFolder) {
   const Finished finished = run({"assemble", folder_ / "nosuch", "--json", json_});
   EXPECT_EQ(finished.exit_code, 1);
