@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "core/median.hpp"
 #include "core/parallel.hpp"
+#include "mesh/detail/directions.hpp"
 #include "mesh/point_index.hpp"
 
 namespace rejoin::mesh {
@@ -19,24 +19,9 @@ glm::dvec3 face_cross(const Mesh& mesh, const glm::uvec3& face) {
   return glm::cross(glm::dvec3(mesh.vertices[face.y]) - a, glm::dvec3(mesh.vertices[face.z]) - a);
 }
 
-constexpr std::size_t kDirections = 256;
-constexpr std::size_t kTogether = 16;  // directions that go through the vertices at once, in vectors
+constexpr std::size_t kDirections = 256;  // none is further than 7 degrees from one of them or its opposite
+constexpr std::size_t kTogether = 16;     // directions that go through the vertices at once, in vectors
 static_assert(kDirections % kTogether == 0);
-
-/// Directions spread over a half sphere (golden spiral) so that no direction is further than 7 degrees from
-/// one of them or its opposite.
-std::vector<glm::vec3> half_sphere_directions() {
-  std::vector<glm::vec3> directions;
-  directions.reserve(kDirections);
-  const double turn = std::numbers::pi * (3.0 - std::sqrt(5.0));
-  for (std::size_t k = 0; k < kDirections; ++k) {
-    const auto i = static_cast<double>(k);
-    const double z = (i + 0.5) / static_cast<double>(kDirections);
-    const double r = std::sqrt(1.0 - z * z);
-    directions.emplace_back(r * std::cos(turn * i), r * std::sin(turn * i), z);
-  }
-  return directions;
-}
 
 /// Of each direction the index of the first vertex that lies furthest back, then of the one furthest along.
 void extremes(const std::vector<glm::vec3>& vertices, const glm::vec3* directions, std::uint32_t* ends) {
@@ -119,7 +104,7 @@ glm::dvec3 centroid(const Mesh& mesh) {
 double diameter(const Mesh& mesh) {
   if (mesh.vertices.empty()) return 0;
   // The width along a direction 7 degrees off the longest chord is at least cos 7 = 0.993 of it.
-  const std::vector<glm::vec3> directions = half_sphere_directions();
+  const std::vector<glm::vec3> directions = detail::half_sphere_directions(kDirections);
   std::vector<std::uint32_t> ends(2 * directions.size());
   parallel_for(directions.size() / kTogether, 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first * kTogether; i < last * kTogether; i += kTogether) {

@@ -1,14 +1,13 @@
 #include "mesh/detail/cloud_normals.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 #include <queue>
 
 #include "core/parallel.hpp"
+#include "mesh/detail/directions.hpp"
 #include "mesh/detail/local_fit.hpp"
 #include "mesh/detail/outlook.hpp"
 #include "mesh/surface.hpp"
@@ -16,7 +15,8 @@
 namespace rejoin::mesh::detail {
 namespace {
 
-constexpr float kOpposite = -0.5F;  // cosine of normals
+constexpr std::size_t kDirections = 32;  // and their opposites
+constexpr float kOpposite = -0.5F;       // cosine of normals
 constexpr double kStray = 5e-4;     // share of neighbours with opposite normals that a cloud is let pass with
 constexpr double kAgreeing = 0.95;  // share of good normals that turning along the surface leaves, or turns
 constexpr double kBetter = 0.2;     // of all rays, that leave from the front and not from the back
@@ -78,23 +78,11 @@ class Walker {
   std::priority_queue<Step, std::vector<Step>, std::greater<>> steps_;
 };
 
-/// Directions spread evenly over the sphere (Fibonacci lattice).
-std::array<glm::vec3, 64> all_round() {
-  std::array<glm::vec3, 64> directions;
-  for (std::size_t k = 0; k < directions.size(); ++k) {
-    const float z = 1.0F - (2.0F * static_cast<float>(k) + 1.0F) / static_cast<float>(directions.size());
-    const float turn = std::numbers::pi_v<float> * (3.0F - std::sqrt(5.0F)) * static_cast<float>(k);
-    const float radius = std::sqrt(1.0F - z * z);
-    directions[k] = {radius * std::cos(turn), radius * std::sin(turn), z};
-  }
-  return directions;
-}
-
 /// Whether the normals at the furthest points in all directions point inwards, taken together.
 bool points_inwards(const std::vector<std::uint32_t>& part, const std::vector<glm::vec3>& points,
                     const std::vector<glm::vec3>& normals) {
   float outwards = 0;
-  for (const glm::vec3& direction : all_round()) {
+  const auto look = [&](const glm::vec3& direction) {
     std::uint32_t furthest = part.front();
     float most = -std::numeric_limits<float>::infinity();
     for (const std::uint32_t i : part) {
@@ -105,6 +93,10 @@ bool points_inwards(const std::vector<std::uint32_t>& part, const std::vector<gl
       }
     }
     outwards += glm::dot(direction, normals[furthest]);
+  };
+  for (const glm::vec3& direction : half_sphere_directions(kDirections)) {
+    look(direction);
+    look(-direction);
   }
   return outwards < 0;
 }

@@ -40,7 +40,7 @@ struct Part {
 /// Numbers parts from 0 in the order in which their elements are asked for.
 class PartNumbers {
  public:
-  explicit PartNumbers(Components& components, std::size_t elements)
+  PartNumbers(Components& components, std::size_t elements)
       : components_(components), number_(elements, kNone) {}
 
   std::uint32_t of(std::uint32_t element) {
@@ -48,7 +48,6 @@ class PartNumbers {
     if (part == kNone) part = count_++;
     return part;
   }
-  std::size_t count() const { return count_; }
 
  private:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
