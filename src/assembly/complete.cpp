@@ -6,6 +6,7 @@
 
 #include "core/parallel.hpp"
 #include "match/align.hpp"
+#include "match/refine.hpp"
 #include "match/verify.hpp"
 
 namespace rejoin::assembly {
@@ -79,7 +80,8 @@ class Completer {
     const Rigid rough = joint.align(match::to_origins(a.fragment(), b.fragment(), guess.pose),
                                     {24.0 * tolerance, 4.0 * tolerance, 16, 300});
     const Rigid fine = joint.align(rough, {12.0 * tolerance, 3.0 * tolerance, 20, 0});
-    const double score = match::score_of(match::strength(joint.agreed_evidence(fine)));
+    const double score =
+        match::score_of(match::strength(match::weigh(joint.agreed_evidence(fine), joint, fine)));
     if (score < kLikely) return std::nullopt;
     const Link link{guess.a, guess.b, match::to_files(a.fragment(), b.fragment(), fine), score};
     const bool stayed = same_pose(a, b, guess.pose, link.pose, options_);

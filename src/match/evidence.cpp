@@ -2,8 +2,10 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -12,6 +14,7 @@
 #include "core/tukey.hpp"
 #include "match/align.hpp"
 #include "match/detail/joint_sides.hpp"
+#include "mesh/neighbours.hpp"
 
 namespace rejoin::match {
 namespace {
@@ -41,6 +44,9 @@ constexpr double kBorderStep = 0.3;      // patches by which skin that goes on m
 constexpr double kByChance = 4.0;        // patches of skin that go on at wrong poses, too
 constexpr double kContinuation = 0.5;    // strength of every further patch
 constexpr double kMostContinuation = 4.5;
+constexpr std::array kScales{1.5,
+                             3.0};      // patches: radii of the surroundings that tell small shape from large
+constexpr double kSmallestShare = 0.4;  // of the information, by scales: right poses have as much
 
 /// 1.48 times the median absolute deviation: the standard deviation of what is not outliers.
 double robust_deviation(std::vector<double> values) {
@@ -114,26 +120,63 @@ class Look {
   Evidence evidence(int facet_b) const {
     Evidence e;
     e.tolerance = lengths_.tolerance;
-    const std::vector<glm::vec3> touching = look_at_contact(b_.broken_of(facet_b), e);
+    const Contact contact = contact_of(b_.broken_of(facet_b));
+    look_at_contact(contact, e);
     look_for_penetration(e);
     if (lengths_.thickness > 0) {
       look_at_walls(e);
     } else if (most_samples_ <= 0) {
-      look_across_border(touching, e);
+      look_across_border(contact.touching, e);
     }
     return e;
   }
 
+  double share_by_scale() const {
+    const Contact contact = contact_of(b_.broken_of(-1));
+    if (!contact.has_shape()) return 1.0;
+    const std::vector<double> heights =
+        heights_above_quadric(contact.core, glm::normalize(contact.normal), kQuadricRounds);
+    const std::array relief = variances_by_scale(contact.core, heights);
+    const std::array gaps = variances_by_scale(contact.core, contact.core_gaps);
+    const double noise = lengths_.noise * lengths_.noise;
+    const double whole = std::log((relief.back() + noise) / (gaps.back() + noise));
+    if (whole <= 0.0) return 1.0;
+    double told = 0.0;
+    double patches = 1.0;  // of all, what surroundings of this scale have of their own
+    double inside_relief = 0.0;
+    double inside_gaps = 0.0;
+    for (std::size_t k = 0; k < relief.size(); ++k) {
+      const double larger = k < kScales.size() ? 1.0 / (std::numbers::pi * kScales[k] * kScales[k]) : 0.0;
+      // The mean over surroundings has that share of the smallest gaps' variance left.
+      const double least = k == 0 ? noise : gaps.front() * patches;
+      const double shape = std::max(0.0, relief[k] - inside_relief) + least;
+      const double rest = std::max(0.0, gaps[k] - inside_gaps) + least;
+      told += (patches - larger) * std::max(0.0, std::log(shape / rest));
+      inside_relief = relief[k];
+      inside_gaps = gaps[k];
+      patches = larger;
+    }
+    return std::min(1.0, told / whole);
+  }
+
  private:
-  /// \return the samples that touch, A's axes
-  std::vector<glm::vec3> look_at_contact(const std::vector<std::uint32_t>& from, Evidence& e) const {
+  /// What of B lies over A.
+  struct Contact {
     std::vector<double> gaps;
+    std::vector<glm::dvec3> core;  ///< of these, what is not next to another facet, A's axes
     std::vector<double> core_gaps;
-    std::vector<glm::dvec3> core;
-    std::vector<glm::vec3> touching;
-    glm::dvec3 normal(0.0);
+    std::vector<glm::vec3> touching;  ///< of all, A's axes
+    std::size_t unbacked = 0;         ///< of these, how many have nothing behind them on either side
+    double share = 0;                 ///< surface that each stands for
+    glm::dvec3 normal{0.0};           ///< sum of A's
+
+    bool has_shape() const { return core.size() >= 12 && glm::length(normal) > 0; }
+  };
+
+  Contact contact_of(const std::vector<std::uint32_t>& from) const {
+    Contact c;
     const std::size_t step = stride(from.size(), most_samples_);
-    const double share = static_cast<double>(step) * b_.sample_area;
+    c.share = static_cast<double>(step) * b_.sample_area;
     const auto farthest = static_cast<float>(std::hypot(lengths_.spacing, kOver * lengths_.tolerance));
     for (std::size_t k = 0; k < from.size(); k += step) {
       const std::uint32_t i = from[k];
@@ -147,32 +190,58 @@ class Look {
           std::sqrt(std::max(0.0, static_cast<double>(glm::dot(offset, offset)) - gap * gap));
       if (aside > lengths_.spacing || std::abs(gap) > kOver * lengths_.tolerance) continue;
       if (glm::dot(n, move_.direction(b_.broken.normals[i])) > kFacing) continue;
-      gaps.push_back(gap);
-      normal += glm::dvec3(n);
+      c.gaps.push_back(gap);
+      c.normal += glm::dvec3(n);
       if (!b_.broken.edge[i] && !a_.broken.edge[hit->first]) {
-        core.emplace_back(p);
-        core_gaps.push_back(gap);
+        c.core.emplace_back(p);
+        c.core_gaps.push_back(gap);
       }
       if (std::abs(gap) > lengths_.tolerance) continue;
-      touching.push_back(p);
+      c.touching.push_back(p);
+      c.unbacked += b_.broken.backed[i] || a_.broken.backed[hit->first] ? 0 : 1;
     }
-    e.contact_area = static_cast<double>(touching.size()) * share;
-    e.shared_area = static_cast<double>(gaps.size()) * share;
+    return c;
+  }
+
+  void look_at_contact(const Contact& c, Evidence& e) const {
+    e.contact_area = static_cast<double>(c.touching.size()) * c.share;
+    e.shared_area = static_cast<double>(c.gaps.size()) * c.share;
+    e.unbacked_area = static_cast<double>(c.unbacked) * c.share;
     e.patch_area = lengths_.patch * lengths_.patch;
-    e.gap_median = median_gap(std::move(gaps));
-    if (glm::length(normal) > 0) e.normal = glm::normalize(normal);
-    e.core_samples = static_cast<int>(core.size());
-    if (core.size() < 12 || !(glm::length(normal) > 0)) return touching;
+    e.gap_median = median_gap(c.gaps);
+    if (glm::length(c.normal) > 0) e.normal = glm::normalize(c.normal);
+    e.core_samples = static_cast<int>(c.core.size());
+    if (!c.has_shape()) return;
     const int rounds =
         most_samples_ > 0 ? 1 : kQuadricRounds;  // few samples have no bulk to tell from the rest
-    e.gap_spread = robust_deviation(core_gaps);
-    e.relief = robust_deviation(heights_above_quadric(core, glm::normalize(normal), rounds));
-    std::tie(e.centre, e.along) = middle_and_axis(core);
-    const double patches = static_cast<double>(core.size()) * share / e.patch_area;
+    e.gap_spread = robust_deviation(c.core_gaps);
+    e.relief = robust_deviation(heights_above_quadric(c.core, glm::normalize(c.normal), rounds));
+    std::tie(e.centre, e.along) = middle_and_axis(c.core);
+    const double patches = static_cast<double>(c.core.size()) * c.share / e.patch_area;
     e.information = 0.5 * patches *
                     std::log((e.relief * e.relief + lengths_.noise * lengths_.noise) /
                              (e.gap_spread * e.gap_spread + lengths_.noise * lengths_.noise));
-    return touching;
+  }
+
+  /// Squared robust deviations of values at points from their means over the surroundings, from the smallest scale to the whole.
+  std::array<double, kScales.size() + 1> variances_by_scale(const std::vector<glm::dvec3>& points,
+                                                            const std::vector<double>& values) const {
+    const std::vector<glm::vec3> places(points.begin(), points.end());
+    std::array<double, kScales.size() + 1> variances{};
+    std::vector<std::uint32_t> near;
+    for (std::size_t k = 0; k < kScales.size(); ++k) {
+      const mesh::Neighbours neighbours(places, static_cast<float>(kScales[k] * lengths_.patch));
+      std::vector<double> left = values;
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        neighbours.of(places[i], near);
+        double sum = 0.0;
+        for (const auto j : near) sum += values[j];
+        left[i] -= sum / static_cast<double>(near.size());
+      }
+      variances[k] = std::pow(robust_deviation(std::move(left)), 2.0);
+    }
+    variances.back() = std::pow(robust_deviation(values), 2.0);
+    return variances;
   }
 
   void look_for_penetration(Evidence& e) const {
@@ -294,6 +363,12 @@ double strength(const Evidence& evidence) {
                                            std::pow(touching_share(evidence), kOpenCosts);
 }
 
+Evidence told_by_scale(Evidence evidence, double share) {
+  const double part = std::min(1.0, share / kSmallestShare);
+  evidence.information *= part * part;
+  return evidence;
+}
+
 double rank(const Evidence& evidence) {
   if (evidence.patch_area <= 0) return 0.0;
   const double patches = std::min(kMostPatches, evidence.contact_area / evidence.patch_area);
@@ -303,6 +378,11 @@ double rank(const Evidence& evidence) {
 
 Evidence Joint::evidence(const Rigid& pose, int most_samples, int facet_b, bool quick) const {
   return Look(*sides_, pose, most_samples, quick).evidence(facet_b);
+}
+
+double Joint::share_by_scale(const Rigid& pose) const {
+  return std::sqrt(Look(*sides_, pose, 0, false).share_by_scale() *
+                   Look(*exchanged_, inverse(pose), 0, false).share_by_scale());
 }
 
 Evidence Joint::agreed_evidence(const Rigid& pose) const {

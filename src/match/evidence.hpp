@@ -20,8 +20,9 @@ struct Evidence {
   double contact_area = 0;  ///< B's broken surface that faces A's within the tolerance
   /// B's broken surface that lies over A's, touching or not (within kOver tolerances).
   double shared_area = 0;
-  double patch_area = 0;  ///< of a patch of surface whose relief is independent of the next one's
-  int core_samples = 0;   ///< of the shared surface, those that are not next to another facet
+  double unbacked_area = 0;  ///< of the contact, what has nothing behind it on either side
+  double patch_area = 0;     ///< of a patch of surface whose relief is independent of the next one's
+  int core_samples = 0;      ///< of the shared surface, those that are not next to another facet
   double gap_median = std::numeric_limits<double>::infinity();  ///< median_gap() over the shared area
   double gap_spread = 0;  ///< robust deviation (1.48 MAD) of the gaps, mesh units
   double relief = 0;      ///< robust deviation of the shared surface from a quadric: what there is to explain
@@ -44,6 +45,11 @@ struct Evidence {
 /// its border.  Comparable across pairs.
 /// \source docs/scoring.md
 double strength(const Evidence& evidence);
+
+/// The evidence with less information where too little is left of it scale by scale, as where smooth surfaces fit each other loosely.
+/// \param share  Joint::share_by_scale()
+/// \source docs/scoring.md
+Evidence told_by_scale(Evidence evidence, double share);
 
 /// What poses of one pair are ordered by: the strength, and a little for every patch that touches.  The strength of weak poses may
 /// be chance, and of these the right ones have more contact.  Says nothing across pairs.

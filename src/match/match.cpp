@@ -20,6 +20,10 @@ namespace {
 
 constexpr double kDegree = 0.017453292519943295;
 constexpr std::size_t kGlance = 2;  // rounds of alignment after which poses are about as strong as in the end
+constexpr const char* kWalls =
+    "what touches has nothing behind it in either scan, so it may be the walls of sherds that were scanned "
+    "from one side: the score is 0.5 at most; "
+    "scan the other side, too, or paint the breaks (rejoin facets)";
 constexpr double kFacetSpread_deg =
     25.0;  // how far a facet's mean normal may lie from the direction that a user sees
 
@@ -170,6 +174,7 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
   if (!context.cancelled()) align(hypotheses, joint, a, b, std::span(rounds).subspan(kGlance), context);
   hypotheses.resize(std::min(hypotheses.size(), static_cast<std::size_t>(options.max_candidates)));
   if (!context.cancelled()) tighten(hypotheses, joint, b, std::max(a.diameter, b.diameter));
+  weigh(hypotheses, joint);
   clock.lap("align");
 
   context.report("verify", 0.8);
@@ -187,8 +192,11 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
   }
   clock.lap("verify");
   result.cancelled = context.cancelled();
-  if (!result.candidates.empty())
+  if (!result.candidates.empty()) {
     result.verdict = verdict_of(result.candidates.front().score, result.stability);
+    if (result.verdict != Verdict::NoJoin && may_be_walls(hypotheses.front().evidence))
+      result.warnings.emplace_back(kWalls);
+  }
   context.report("done", 1.0);
   return result;
 }

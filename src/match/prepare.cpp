@@ -35,12 +35,13 @@ void doubt_coarse_walls(Fragment& fragment) {
 
 /// Walls of a sherd that is taken for a solid piece lie on those of others as breaks do.
 void doubt_scans_from_one_side(Fragment& fragment) {
-  if (fragment.facets.wall_thickness > 0 || fragment.facets.unbacked < kFromOneSide) return;
+  const double unbacked = mesh::unbacked_share(fragment.facets);
+  if (fragment.facets.wall_thickness > 0 || unbacked < kFromOneSide) return;
   fragment.warnings.push_back(fmt::format(
       "{}: nothing lies behind {:.0f} % of it, as of a scan from one side, and it is taken for a "
       "solid piece: if it is a sherd, its wall may be joined as a break; scan the other side, too, "
       "or paint the breaks (rejoin facets)",
-      fragment.path, 100.0 * fragment.facets.unbacked));
+      fragment.path, 100.0 * unbacked));
 }
 
 }  // namespace

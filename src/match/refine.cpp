@@ -15,6 +15,8 @@ constexpr std::size_t kEvenIfCancelled = 6;
 constexpr std::array kTighter{0.7, 0.5, 0.35};  // reaches, tolerances
 constexpr std::array kSteps{0.4, 0.2, 0.1};     // of a climb, tolerances
 constexpr int kStepRounds = 4;                  // of each size, at most
+constexpr double kUnbacked = 0.9;               // share of the contact
+constexpr double kSkin = 4.0;                   // patches: less goes on at wrong poses, too
 
 void sort_by_rank(std::vector<Hypothesis>& list) {
   std::stable_sort(list.begin(), list.end(), [](const Hypothesis& x, const Hypothesis& y) {
@@ -145,6 +147,28 @@ void tighten(std::vector<Hypothesis>& list, const Joint& joint, const Fragment& 
   });
   sort_by_rank(list);
   list = distinct(list, b, diameter, list.size());
+}
+
+bool may_be_walls(const Evidence& evidence) {
+  return evidence.unbacked_area > kUnbacked * evidence.contact_area && evidence.continuation < kSkin;
+}
+
+Evidence weigh(const Evidence& evidence, const Joint& joint, const Rigid& pose) {
+  if (strength(evidence) <= 0.0) return evidence;
+  Evidence told = told_by_scale(evidence, joint.share_by_scale(pose));
+  if (may_be_walls(told)) told.information *= kEven / std::max(kEven, strength(told));
+  return told;
+}
+
+void weigh(std::vector<Hypothesis>& list, const Joint& joint) {
+  parallel_for(list.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) {
+      Hypothesis& hypothesis = list[k];
+      hypothesis.evidence = weigh(hypothesis.evidence, joint, hypothesis.pose);
+      hypothesis.strength = std::min(hypothesis.strength, strength(hypothesis.evidence));
+    }
+  });
+  sort_by_rank(list);
 }
 
 }  // namespace rejoin::match

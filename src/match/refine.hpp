@@ -47,4 +47,18 @@ std::vector<Hypothesis> distinct(const std::vector<Hypothesis>& list, const Frag
 /// \pre sorted by refine()
 void tighten(std::vector<Hypothesis>& list, const Joint& joint, const Fragment& b, double diameter);
 
+/// Whether hardly anything lies behind the contact in either scan, and no skin goes on across its border: it may be the walls of two
+/// sherds that were scanned from one side.
+bool may_be_walls(const Evidence& evidence);
+
+/// The evidence of a pose with less information where it would say too much: where only large, smooth shape agrees, loosely
+/// (told_by_scale()), and where what touches may be walls: such a joint is at most as likely as not.
+/// \param evidence  joint.agreed_evidence(pose)
+/// \source docs/scoring.md
+Evidence weigh(const Evidence& evidence, const Joint& joint, const Rigid& pose);
+
+/// Weighs the poses that are left, then sorts.
+/// \pre tightened
+void weigh(std::vector<Hypothesis>& list, const Joint& joint);
+
 }  // namespace rejoin::match

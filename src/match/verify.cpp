@@ -10,7 +10,6 @@
 namespace rejoin::match {
 namespace {
 
-constexpr double kEven = 6.0;    // strength at which a joint is as likely as not
 constexpr double kSteady = 2.0;  // degrees between the poses of either half of the samples, at most
 constexpr double kSlope = 0.75;  // strength that multiplies the odds by e
 constexpr double kAhead = 11.0;  // log-odds of a sure join over those of the pair's next pose, at least

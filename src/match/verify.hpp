@@ -11,6 +11,9 @@ namespace rejoin::match {
 constexpr double kSure = 0.99;     ///< score from which the verdict is "join"
 constexpr double kPossible = 0.3;  ///< and from which it is "unsure"
 
+/// Strength at which a joint is as likely as not.
+constexpr double kEven = 6.0;
+
 /// Strength of the best pose after the first alignments from which a pair is promising.  \source docs/scoring.md
 constexpr double kWorthwhile = 1.0;
 constexpr double kWorthwhileThin = 1.5;  ///< the same where both pieces are thin

@@ -111,10 +111,11 @@ std::vector<float> roughness_of(const Samples& samples, const std::vector<glm::v
   return rough;
 }
 
-/// Share of the rays that meet nothing.
-double meets_nothing(const InwardRays& rays) {
-  const auto lost = std::ranges::count_if(rays.length, [](float length) { return std::isinf(length); });
-  return static_cast<double>(lost) / static_cast<double>(std::max<std::size_t>(1, rays.length.size()));
+std::vector<bool> meets_something(const InwardRays& rays) {
+  std::vector<bool> meets;
+  meets.reserve(rays.length.size());
+  for (const float length : rays.length) meets.push_back(!std::isinf(length));
+  return meets;
 }
 
 /// Wall points see the opposite wall, or lie on a wide facet of an open scan; then every point takes the vote of its
@@ -208,8 +209,8 @@ detail::OpenWalls open_walls(const Mesh& mesh, const Segmentation& s, const List
 Lists classify(const Mesh& mesh, double size, Segmentation& s) {
   Look seen = look(mesh, kSamples, s);
   s.wall_thickness = wall_thickness(seen.rays, size);
-  s.unbacked = meets_nothing(seen.rays);
-  const bool open = s.unbacked > kOpen;
+  s.backed = meets_something(seen.rays);
+  const bool open = unbacked_share(s) > kOpen;
   if (open && s.wall_thickness == 0) {
     const double width = open_walls(mesh, s, seen.near, kWideOfSize * size).break_width;
     if (width < kMostOfOpen * size) s.wall_thickness = width;
@@ -219,6 +220,7 @@ Lists classify(const Mesh& mesh, double size, Segmentation& s) {
     const double finer = s.samples.spacing * kSamplesPerWall / s.wall_thickness;
     const double count = static_cast<double>(s.samples.size()) * finer * finer;
     seen = look(mesh, static_cast<std::size_t>(std::min(count, kMostSamples)), s);
+    s.backed = meets_something(seen.rays);
   }
   std::vector<bool> wide;
   if (open) wide = open_walls(mesh, s, seen.near, kWideWalls * s.wall_thickness).wall;
@@ -254,6 +256,12 @@ Cut cut_into(const Segmentation& s, std::vector<std::vector<std::uint32_t>> memb
 }
 
 }  // namespace detail
+
+double unbacked_share(const Segmentation& segmentation) {
+  const auto lost = std::ranges::count(segmentation.backed, false);
+  return static_cast<double>(lost) /
+         static_cast<double>(std::max<std::size_t>(1, segmentation.backed.size()));
+}
 
 Segmentation segment(const Mesh& mesh) {
   return segment(mesh, diameter(mesh));

@@ -41,7 +41,8 @@ struct Segmentation : Cut {
       roughness;  ///< per sample: rms distance from the local quadric, as a fraction of its radius
   Cut creased;  ///< solid pieces: cut once more, along the creases; no facets in thin walls and painted facets
   double wall_thickness = 0;  ///< most frequent wall thickness, mesh units; 0 for a solid piece
-  double unbacked = 0;     ///< share of the surface behind which nothing lies: large for a scan from one side
+  std::vector<bool>
+      backed;              ///< per sample: other surface lies behind it; a scan from one side has hardly any
   double sample_area = 0;  ///< surface that a sample stands for, squared mesh units
 };
 
@@ -56,6 +57,9 @@ struct Segmentation : Cut {
 /// \param size  diameter(mesh)
 Segmentation segment(const Mesh& mesh, double size);
 Segmentation segment(const Mesh& mesh);
+
+/// Share of the surface behind which nothing lies: large for a scan from one side.
+double unbacked_share(const Segmentation& segmentation);
 
 /// For every face of `mesh` (the segmented one, or another level of detail of it) the nearest sample that looks the same way,
 /// or -1.

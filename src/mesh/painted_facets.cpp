@@ -89,6 +89,7 @@ std::optional<PaintedFacets> painted_facets(const Segmentation& segmentation, co
   }
   static_cast<Cut&>(result) = detail::cut_into(result, std::move(members));
   result.creased = {};
+  result.backed.assign(result.backed.size(), true);  // what is painted as broken is no wall
   return painted_ones;
 }
 

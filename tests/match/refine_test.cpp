@@ -4,6 +4,7 @@
 
 #include <initializer_list>
 
+#include "match/verify.hpp"
 #include "prepared_pair.hpp"
 
 namespace rejoin::match {
@@ -98,6 +99,67 @@ TEST(Refine, MovesWhatGainsAndLeavesWhatWouldWeaken) {
   refine(list, joint, last, Context{});
   ASSERT_EQ(list.size(), 1U);
   EXPECT_GT(list.front().strength, worth(disturbed));
+}
+
+/// The planted truth, weighed.
+Hypothesis weighed_truth(const Pair& pair, const Joint& joint) {
+  std::vector<Hypothesis> list = moved_from_truth(pair, joint, {0.0});
+  weigh(list, joint);
+  return list.front();
+}
+
+TEST(Refine, SmoothBreakThatFitsKeepsItsStrength) {
+  const Pair pair = make_pair(6);
+  const Joint joint(pair.a, pair.b);
+  EXPECT_EQ(weighed_truth(pair, joint).strength, strength(joint.agreed_evidence(pair.truth)));
+}
+
+/// Half of a block whose break has a shape of 60 mm and more that both halves share, and a roughness of its own.
+/// \param roughness  deviation, mm
+Fragment alike_at_large(bool below, double roughness) {
+  mesh::Mesh half = testing::half_block(below, 48);
+  Random random(below ? 1 : 2);
+  for (auto& v : half.vertices) {
+    if (std::abs(v.z) >= static_cast<float>(testing::kHalfZ)) continue;
+    const auto x = static_cast<double>(v.x);
+    const auto y = static_cast<double>(v.y);
+    v.z = static_cast<float>(std::sin(0.1 * x + 0.5) * std::cos(0.1 * y) + roughness * random.normal());
+  }
+  return prepare(below ? "below" : "above", half, Context{});
+}
+
+// Large shape agrees over many patches at once, so it says less than shape of a patch's size.
+TEST(Refine, ShapeThatAgreesAtLargeAloneIsWorthLess) {
+  const Joint joint(alike_at_large(true, 0.12), alike_at_large(false, 0.12));
+  Hypothesis hypothesis{Rigid{}, joint.agreed_evidence(Rigid{}), 0.0};
+  hypothesis.strength = strength(hypothesis.evidence);
+  std::vector<Hypothesis> list{hypothesis};
+  weigh(list, joint);
+  EXPECT_GT(score_of(hypothesis.strength), kSure);
+  EXPECT_LT(list.front().strength, 0.5 * hypothesis.strength);
+}
+
+/// What of a scan looks at the other piece.
+Fragment scanned_from_the_break(const mesh::Mesh& half, const glm::dvec3& outwards) {
+  mesh::Mesh seen = half;
+  const auto normals = mesh::face_normals(half);
+  seen.faces.clear();
+  for (std::size_t f = 0; f < half.faces.size(); ++f) {
+    if (glm::dot(glm::dvec3(normals[f]), outwards) > 0.5) seen.faces.push_back(half.faces[f]);
+  }
+  return prepare("seen", seen, Context{});
+}
+
+TEST(Refine, WhatHasNothingBehindItOnEitherSideMayBeWalls) {
+  const Pair solid = make_pair(6);
+  Pair pair = solid;
+  pair.a = scanned_from_the_break(solid.planted.a, solid.planted.direction_a);
+  EXPECT_FALSE(may_be_walls(Joint(pair.a, pair.b).agreed_evidence(pair.truth)));
+  pair.b = scanned_from_the_break(solid.planted.b, solid.planted.direction_b);
+  const Joint joint(pair.a, pair.b);
+  ASSERT_GT(score_of(strength(joint.agreed_evidence(pair.truth))), kSure);
+  EXPECT_TRUE(may_be_walls(joint.agreed_evidence(pair.truth)));
+  EXPECT_LE(weighed_truth(pair, joint).strength, kEven);
 }
 
 }  // namespace

@@ -35,6 +35,7 @@ Side side_of(const Fragment& fragment, double edge_radius) {
     }
     side.broken.points.push_back(s.samples.points[i]);
     side.broken.normals.push_back(s.normals[i]);
+    side.broken.backed.push_back(s.backed[i]);
     neighbours.of(s.samples.points[i], near);
     side.broken.edge.push_back(std::any_of(near.begin(), near.end(), [&](std::uint32_t k) {
       return s.facet_of_sample[k] != s.facet_of_sample[i];

@@ -25,7 +25,8 @@ inline constexpr float kWallAlike = 0.7F;  ///< wall normals across a seam diffe
 struct Cloud {
   std::vector<glm::vec3> points;
   std::vector<glm::vec3> normals;
-  std::vector<bool> edge;  ///< next to another facet: worn, of no use for the relief
+  std::vector<bool> backed;  ///< of `broken`: mesh::Segmentation::backed
+  std::vector<bool> edge;    ///< next to another facet: worn, of no use for the relief
 };
 
 /// Looks for the point of a cloud that is nearest to another.
