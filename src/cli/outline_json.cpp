@@ -21,15 +21,14 @@ ordered_json piece_json(const outline::Piece& piece) {
 ordered_json candidate_json(const outline::Piece& a, const outline::Piece& b,
                             const outline::JoinCandidate& candidate) {
   const outline::JoinAreas areas = outline::join_areas(a.outline, b.outline, candidate);
-  return {{"pose", to_json(candidate.pose)},
-          {"flipped", candidate.pose.flipped},
-          {"score", candidate.score},
-          {"boundary",
-           {{"begin_a", candidate.boundary.begin_a},
-            {"begin_b", candidate.boundary.begin_b},
-            {"length", candidate.boundary.length}}},
-          {"gap_area", areas.gap},
-          {"overlap_area", areas.overlap}};
+  const outline::Boundary& boundary = candidate.boundary;
+  ordered_json where = {
+      {"begin_a", boundary.begin_a}, {"begin_b", boundary.begin_b}, {"length", boundary.length}};
+  if (boundary.hole_a > 0) where["hole_a"] = boundary.hole_a;
+  if (boundary.hole_b > 0) where["hole_b"] = boundary.hole_b;
+  return {{"pose", to_json(candidate.pose)}, {"flipped", candidate.pose.flipped},
+          {"score", candidate.score},        {"boundary", where},
+          {"gap_area", areas.gap},           {"overlap_area", areas.overlap}};
 }
 
 ordered_json to_json(const std::vector<outline::LeftOut>& list) {

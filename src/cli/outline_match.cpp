@@ -23,6 +23,12 @@ std::string verdict_of(const outline::PairResult& result) {
   return outline_verdict(result.candidates.empty() ? 0.0 : result.candidates.front().score);
 }
 
+/// Where a boundary is that runs along a hole.
+const char* place_of(const outline::Boundary& boundary) {
+  if (boundary.hole_a > 0) return " (B lies in a hole of A)";
+  return boundary.hole_b > 0 ? " (A lies in a hole of B)" : "";
+}
+
 std::string summary(const outline::Piece& a, const outline::Piece& b, const outline::PairResult& result) {
   if (result.candidates.empty()) return "no join, nothing fits\n";
   const outline::JoinCandidate& best = result.candidates.front();
@@ -35,8 +41,8 @@ std::string summary(const outline::Piece& a, const outline::Piece& b, const outl
   const outline::JoinAreas areas = outline::join_areas(a.outline, b.outline, best);
   return text +
          fmt::format(
-             "common boundary: length {:.4g}, gap area {:.4g}, overlap area {:.4g} (in the files' unit)\n",
-             best.boundary.length, areas.gap, areas.overlap);
+             "common boundary{}: length {:.4g}, gap area {:.4g}, overlap area {:.4g} (in the files' unit)\n",
+             place_of(best.boundary), best.boundary.length, areas.gap, areas.overlap);
 }
 
 /// One pair can afford to look for boundaries down to a fortieth of the border, and to fit whatever might be one: the shape of

@@ -165,15 +165,17 @@ cv::Mat object_picture(const std::vector<Placed>& members, const View& view) {
 /// Draws a's border in red where it lies along b's.
 void draw_boundary(cv::Mat& canvas, const Placed& a, const Placed& b, const View& view) {
   const double reach = 6.0 / view.scale;
-  const DistanceField field(b.piece->outline.points, reach / 3.0, reach);
+  const DistanceField field(b.piece->outline, reach / 3.0, reach);
   const Planar a_to_b = inverse(b.pose) * a.pose;
-  const std::vector<glm::dvec2>& border = a.piece->outline.points;
-  for (std::size_t i = 0; i < border.size(); ++i) {
-    const glm::dvec2& from = border[i];
-    const glm::dvec2& to = border[(i + 1) % border.size()];
-    if (std::abs(field(a_to_b(from))) > 0.9 * reach || std::abs(field(a_to_b(to))) > 0.9 * reach) continue;
-    const std::vector<cv::Point> line = corners({from, to}, a.pose, view, {0, 0});
-    cv::line(canvas, line[0], line[1], cv::Scalar(40, 40, 220, 255), 3, cv::LINE_AA, kShift);
+  for (std::size_t number = 0; number <= a.piece->outline.holes.size(); ++number) {
+    const std::vector<glm::dvec2>& border = border_of(a.piece->outline, number);
+    for (std::size_t i = 0; i < border.size(); ++i) {
+      const glm::dvec2& from = border[i];
+      const glm::dvec2& to = border[(i + 1) % border.size()];
+      if (std::abs(field(a_to_b(from))) > 0.9 * reach || std::abs(field(a_to_b(to))) > 0.9 * reach) continue;
+      const std::vector<cv::Point> line = corners({from, to}, a.pose, view, {0, 0});
+      cv::line(canvas, line[0], line[1], cv::Scalar(40, 40, 220, 255), 3, cv::LINE_AA, kShift);
+    }
   }
 }
 

@@ -162,7 +162,8 @@ std::vector<CalibratedLevel> calibrate(const std::vector<Piece>& pieces, const s
   const double step = JoinFitter(pieces, FitOptions{options.step}).step();
   std::vector<std::vector<ScaleSignal>> scales;
   scales.reserve(pieces.size());
-  for (const Piece& piece : pieces) scales.push_back(scale_space(piece.outline, {step, options.scales}));
+  for (const Piece& piece : pieces)
+    scales.push_back(scale_space(piece.outline.points, {step, options.scales}));
   std::set<std::pair<std::size_t, std::size_t>> joined;
   for (const KnownJoin& join : joins) joined.emplace(std::min(join.a, join.b), std::max(join.a, join.b));
   Random random(options.seed);

@@ -22,50 +22,61 @@ constexpr double kFloor = 0.006;
 constexpr long kMisses = 3;
 // The field's reach, in steps.
 constexpr double kReach = 4.0;
+// Shorter borders of holes have no shape, steps.
+constexpr double kShortestHole = 16.0;
 
-/// One side of a contact: sums over a's border.
+/// One side of a contact: sums over a's borders.
 struct Side {
+  double length = 0.0;  // file units
   double count = 0.0;
   double pairs = 0.0;        // of samples a lag apart
   double changes = 0.0;      // squared change of a's own direction over the lag, of all pairs
   double differences = 0.0;  // squared difference of direction to the other border
-  double intruding = 0.0;
+  double intruding = 0.0;    // file units
   double squares = 0.0;
 };
 
-Side measure_side(const Silhouette& a, const Silhouette& b, const Planar& motion, double tolerance) {
-  Side side;
-  const Motion a_to_b(motion);
+void add_ring(const Silhouette& a, const Ring& ring, const Silhouette& b, const Motion& a_to_b,
+              double tolerance, Side& side) {
   const glm::dvec2 low = b.low - tolerance;
   const glm::dvec2 high = b.high + tolerance;
-  const std::size_t count = a.points.size();
+  const std::size_t count = ring.end - ring.begin;
   std::vector<char> touching(count, 0);
-  for (std::size_t i = 0, next = 1; i < count; i = next) {
-    const glm::dvec2 p = a_to_b(a.points[i]);
-    next = i + b.field.stride(p, a.step);
-    if (p.x < low.x || p.y < low.y || p.x > high.x || p.y > high.y) continue;
+  double touched = 0.0;
+  double intruding = 0.0;
+  visit_near(a, ring, a_to_b, b.field, [&](std::size_t i, const glm::dvec2& p) {
+    if (p.x < low.x || p.y < low.y || p.x > high.x || p.y > high.y) return;
     const double depth = b.field(p);
-    if (depth > tolerance) side.intruding += 1.0;
-    if (std::abs(depth) > tolerance) continue;
+    if (depth > tolerance) intruding += 1.0;
+    if (std::abs(depth) > tolerance) return;
     const glm::dvec2 inward = b.field.gradient(p);
     const double slope = glm::length(inward);
-    if (slope <= 0.0) continue;
+    if (slope <= 0.0) return;
     const double facing = glm::dot(a_to_b.direction(a.normals[i]), inward) / slope;
     // Side by side two borders face each other; two scans of one piece on one spot have borders that look the same way.
-    if (facing < -kFacing) side.intruding += 1.0;
-    if (facing < kFacing) continue;
-    side.count += 1.0;
+    if (facing < -kFacing) intruding += 1.0;
+    if (facing < kFacing) return;
+    touched += 1.0;
     side.squares += depth * depth;
     side.differences += 2.0 * (1.0 - facing);
-    touching[i] = 1;
-  }
+    touching[i - ring.begin] = 1;
+  });
+  side.count += touched;
+  side.length += touched * ring.step;
+  side.intruding += intruding * ring.step;
   // Corners at the ends of the contact turn away from the other piece and say nothing: both samples must touch.
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t next = (i + kLag) % count;
     if (touching[i] == 0 || touching[next] == 0) continue;
     side.pairs += 1.0;
-    side.changes += 2.0 * (1.0 - glm::dot(a.normals[i], a.normals[next]));
+    side.changes += 2.0 * (1.0 - glm::dot(a.normals[ring.begin + i], a.normals[ring.begin + next]));
   }
+}
+
+Side measure_side(const Silhouette& a, const Silhouette& b, const Planar& a_to_b, double tolerance) {
+  Side side;
+  const Motion motion(a_to_b);
+  for (const Ring& ring : a.rings) add_ring(a, ring, b, motion, tolerance, side);
   return side;
 }
 
@@ -76,19 +87,47 @@ double information(const Side& side) {
   return std::max(0.0, 0.5 * side.count / kStepsADirection * std::log(changes / differences));
 }
 
+/// The outer border and the holes that have a shape at the scale.
+Outline with_long_holes(const Outline& outline, double least) {
+  Outline result;
+  result.points = outline.points;
+  for (const std::size_t number : long_borders(outline, least))
+    if (number > 0) result.holes.push_back(border_of(outline, number));
+  return result;
+}
+
+/// Of a closed border that has the piece on its left: a hole's point into the hole.
+std::vector<glm::dvec2> outward_normals(const std::vector<glm::dvec2>& border) {
+  const std::size_t count = border.size();
+  std::vector<glm::dvec2> normals;
+  normals.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const glm::dvec2 along = border[(i + 1) % count] - border[(i + count - 1) % count];
+    const double length = glm::length(along);
+    normals.push_back(length > 0.0 ? glm::dvec2(along.y, -along.x) / length : glm::dvec2(0.0));
+  }
+  return normals;
+}
+
 }  // namespace
 
 Silhouette::Silhouette(const Outline& outline, double wanted_step, double smoothing)
-    : step(0.0), low(0.0), high(0.0), field(outline.points, wanted_step, kReach * wanted_step) {
-  points = smooth(resample_by(outline.points, wanted_step), smoothing);
-  step = perimeter(outline.points) / static_cast<double>(points.size());
+    : step(0.0),
+      low(0.0),
+      high(0.0),
+      field(with_long_holes(outline, kShortestHole * wanted_step), wanted_step, kReach * wanted_step) {
+  for (const std::size_t number : long_borders(outline, kShortestHole * wanted_step)) {
+    const std::vector<glm::dvec2>& border = border_of(outline, number);
+    const std::vector<glm::dvec2> even = smooth(resample_by(border, wanted_step), smoothing);
+    const std::vector<glm::dvec2> outward = outward_normals(even);
+    rings.push_back(
+        {points.size(), points.size() + even.size(), perimeter(border) / static_cast<double>(even.size())});
+    points.insert(points.end(), even.begin(), even.end());
+    normals.insert(normals.end(), outward.begin(), outward.end());
+  }
+  step = rings[0].step;
   low = high = points[0];
-  normals.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const glm::dvec2 along =
-        points[(i + 1) % points.size()] - points[(i + points.size() - 1) % points.size()];
-    const double length = glm::length(along);
-    normals.push_back(length > 0.0 ? glm::dvec2(along.y, -along.x) / length : glm::dvec2(0.0));
+  for (std::size_t i = 0; i < rings[0].end; ++i) {
     low = glm::min(low, points[i]);
     high = glm::max(high, points[i]);
   }
@@ -97,9 +136,9 @@ Silhouette::Silhouette(const Outline& outline, double wanted_step, double smooth
 PointRun grown_run(const Silhouette& a, const Silhouette& b, const Planar& a_to_b, double tolerance,
                    PointRun run) {
   const Motion motion(a_to_b);
-  const auto count = static_cast<long>(a.points.size());
+  const auto count = static_cast<long>(a.rings[0].end);
   const auto touches = [&](long i) {
-    const std::size_t at = wrapped(i, a.points.size());
+    const std::size_t at = wrapped(i, a.rings[0].end);
     const glm::dvec2 p = motion(a.points[at]);
     if (std::abs(b.field(p)) > tolerance) return false;
     const glm::dvec2 inward = b.field.gradient(p);
@@ -121,9 +160,9 @@ Contact measure_contact(const Silhouette& a, const Silhouette& b, const Planar& 
   const Side ours = measure_side(a, b, inverse(b_to_a), tolerance);
   const Side theirs = measure_side(b, a, b_to_a, tolerance);
   Contact contact;
-  contact.length = 0.5 * (ours.count * a.step + theirs.count * b.step);
+  contact.length = 0.5 * (ours.length + theirs.length);
   contact.information = 0.5 * (information(ours) + information(theirs));
-  contact.intrusion = std::max(ours.intruding * a.step, theirs.intruding * b.step);
+  contact.intrusion = std::max(ours.intruding, theirs.intruding);
   const double count = ours.count + theirs.count;
   contact.rms = count > 0.0 ? std::sqrt((ours.squares + theirs.squares) / count) : 0.0;
   return contact;
@@ -140,19 +179,18 @@ Planar settle(const Silhouette& a, const Silhouette& b, const Planar& b_to_a, do
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     const Motion motion(pose);
     const glm::dvec2 pivot = motion(centre);
-    for (std::size_t i = 0, next = 1; i < b.points.size(); i = next) {
-      const glm::dvec2 p = motion(b.points[i]);
-      next = i + a.field.stride(p, b.step);
+    const auto add = [&](std::size_t i, const glm::dvec2& p) {
       const double depth = a.field(p);
-      if (std::abs(depth) > tolerance) continue;
+      if (std::abs(depth) > tolerance) return;
       const glm::dvec2 inward = a.field.gradient(p);
       const double slope = glm::length(inward);
-      if (slope <= 0.0 || glm::dot(motion.direction(b.normals[i]), inward) < kFacing * slope) continue;
+      if (slope <= 0.0 || glm::dot(motion.direction(b.normals[i]), inward) < kFacing * slope) return;
       const glm::dvec2 off = (p - pivot) / arm;
       const Eigen::Vector3d row(inward.y * off.x - inward.x * off.y, inward.x, inward.y);
       normal += row * row.transpose();
       right -= row * depth;
-    }
+    };
+    for (const Ring& ring : b.rings) visit_near(b, ring, motion, a.field, add);
     if (normal.trace() <= 0.0) break;
     // Damped, so that nothing slides along a straight border.
     normal += 1e-3 * normal.trace() * Eigen::Matrix3d::Identity();

@@ -8,14 +8,14 @@
 
 namespace rejoin::outline {
 
-/// Signed distance to a closed polygon on a grid: exact near the border, clamped further away.
+/// Signed distance to a piece's borders, the holes' among them, on a grid: exact near the borders, clamped further away.
 class DistanceField {
  public:
-  /// \param polygon  closed, either direction   \param cell  side of a cell, file units, > 0; enlarged if the grid
+  /// \param cell  side of a cell, file units, > 0; enlarged if the grid
   ///   would have more than 2^22 cells   \param reach  distances are exact up to here, file units
-  DistanceField(const std::vector<glm::dvec2>& polygon, double cell, double reach);
+  DistanceField(const Outline& outline, double cell, double reach);
 
-  /// Distance to the border, positive inside, between -reach and reach; linear between the cells.
+  /// Distance to the nearest border, positive in the piece, between -reach and reach; linear between the cells.
   double operator()(const glm::dvec2& point) const;
 
   /// How many points on, along a border whose points are at most `step` apart, the first one can come that has another value
@@ -27,7 +27,7 @@ class DistanceField {
 
  private:
   void measure_border(const std::vector<glm::dvec2>& polygon);
-  void sign_inside(const std::vector<glm::dvec2>& polygon);
+  void sign_inside(const Outline& outline);
 
   glm::dvec2 origin_{0.0};
   double cell_;
@@ -37,18 +37,38 @@ class DistanceField {
   std::vector<float> values_;
 };
 
-/// A piece made ready to be laid beside others: its border at equal steps, smoothed, and its distance field.
+/// A closed run of a silhouette's points.
+struct Ring {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+  double step = 0.0;  ///< along the piece's own border between the points, file units
+};
+
+/// A piece made ready to be laid beside others: its borders at equal steps, smoothed, and its distance field.  Holes whose
+/// border is shorter than 16 steps count as filled: at this scale they have no shape, and mostly they are specks.
 struct Silhouette {
   /// \param step  between the points, file units; \param smoothing  of the points, deviation, in steps
   Silhouette(const Outline& outline, double step, double smoothing);
 
-  double step;                      ///< along the piece's own border between the points, file units
-  std::vector<glm::dvec2> points;   ///< on the border
+  double step;                      ///< of the outer border
+  std::vector<Ring> rings;          ///< the outer border, then the holes
+  std::vector<glm::dvec2> points;   ///< on the borders, ring by ring
   std::vector<glm::dvec2> normals;  ///< outward, of unit length
   glm::dvec2 low;                   ///< bounding box
   glm::dvec2 high;
   DistanceField field;
 };
+
+/// Calls visit(i, point) for the points of a ring, moved into the field's coordinates, that do not lie far beyond the field's grid.
+template <typename Visit>
+void visit_near(const Silhouette& shape, const Ring& ring, const Motion& motion, const DistanceField& field,
+                const Visit& visit) {
+  for (std::size_t i = ring.begin, next = i; i < ring.end; i = next) {
+    const glm::dvec2 point = motion(shape.points[i]);
+    next = i + field.stride(point, ring.step);
+    visit(i, point);
+  }
+}
 
 /// What measure_contact() counts.  Lengths are means of both sides, in file units.
 struct Contact {
@@ -64,7 +84,7 @@ struct Contact {
 /// \param tolerance  distance up to which borders touch, file units, at most the fields' reach
 Contact measure_contact(const Silhouette& a, const Silhouette& b, const Planar& b_to_a, double tolerance);
 
-/// A run of a silhouette's points, first to last, cyclic: `first` may be negative and `last` beyond the count.
+/// A run of the points of a silhouette's outer border, first to last, cyclic: `first` may be negative and `last` beyond the count.
 struct PointRun {
   long first = 0;
   long last = 0;

@@ -18,11 +18,10 @@ double squared_distance(const glm::dvec2& p, const glm::dvec2& a, const glm::dve
 
 }  // namespace
 
-DistanceField::DistanceField(const std::vector<glm::dvec2>& polygon, double cell, double reach)
-    : cell_(cell), reach_(reach) {
+DistanceField::DistanceField(const Outline& outline, double cell, double reach) : cell_(cell), reach_(reach) {
   glm::dvec2 low(std::numeric_limits<double>::max());
   glm::dvec2 high(-std::numeric_limits<double>::max());
-  for (const glm::dvec2& p : polygon) {
+  for (const glm::dvec2& p : outline.points) {
     low = glm::min(low, p);
     high = glm::max(high, p);
   }
@@ -33,9 +32,10 @@ DistanceField::DistanceField(const std::vector<glm::dvec2>& polygon, double cell
   rows_ = static_cast<int>(std::ceil(extent.y / cell_)) + 2;
   values_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_),
                  static_cast<float>(reach * reach));
-  measure_border(polygon);
+  measure_border(outline.points);
+  for (const auto& hole : outline.holes) measure_border(hole);
   for (float& value : values_) value = std::sqrt(value);
-  sign_inside(polygon);
+  sign_inside(outline);
 }
 
 void DistanceField::measure_border(const std::vector<glm::dvec2>& polygon) {
@@ -57,15 +57,19 @@ void DistanceField::measure_border(const std::vector<glm::dvec2>& polygon) {
   }
 }
 
-void DistanceField::sign_inside(const std::vector<glm::dvec2>& polygon) {
+void DistanceField::sign_inside(const Outline& outline) {
   std::vector<std::vector<double>> crossings(static_cast<std::size_t>(rows_));
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const glm::dvec2 a = (polygon[i] - origin_) / cell_;
-    const glm::dvec2 b = (polygon[(i + 1) % polygon.size()] - origin_) / cell_;
-    const int first = std::max(0, static_cast<int>(std::ceil(std::min(a.y, b.y))));
-    for (int y = first; y < rows_ && y < std::max(a.y, b.y); ++y)
-      crossings[static_cast<std::size_t>(y)].push_back(a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y));
-  }
+  const auto add = [&](const std::vector<glm::dvec2>& polygon) {
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const glm::dvec2 a = (polygon[i] - origin_) / cell_;
+      const glm::dvec2 b = (polygon[(i + 1) % polygon.size()] - origin_) / cell_;
+      const int first = std::max(0, static_cast<int>(std::ceil(std::min(a.y, b.y))));
+      for (int y = first; y < rows_ && y < std::max(a.y, b.y); ++y)
+        crossings[static_cast<std::size_t>(y)].push_back(a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y));
+    }
+  };
+  add(outline.points);
+  for (const auto& hole : outline.holes) add(hole);
   for (int y = 0; y < rows_; ++y) {
     std::vector<double>& row = crossings[static_cast<std::size_t>(y)];
     std::sort(row.begin(), row.end());

@@ -135,7 +135,7 @@ class EmdMatcher final : public Matcher {
 
   /// The boundary with the ends that cost more than they add, as far as the borders touch at the candidate's pose.
   static Boundary grown(const ScaledPiece& a, const ScaledPiece& b, const JoinCandidate& candidate) {
-    const auto& [begin_a, begin_b, length] = candidate.boundary;
+    const auto& [begin_a, begin_b, length, hole_a, hole_b] = candidate.boundary;
     const Silhouette& sa = a.silhouette;
     const Silhouette& sb = b.silhouette;
     const PointRun on_a =

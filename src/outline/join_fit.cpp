@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "core/error.hpp"
 #include "core/median.hpp"
@@ -51,21 +52,23 @@ double automatic_step(const std::vector<Piece>& pieces) {
 }
 
 struct JoinFitter::State {
-  std::vector<std::vector<ScaleSignal>> scales;  ///< of each piece
-  std::vector<double> perimeters;
-  std::vector<double> areas;
+  std::vector<BorderName> borders;
+  std::vector<std::vector<ScaleSignal>> scales;  ///< of each border
+  std::vector<double> perimeters;                ///< the same
+  std::vector<double> areas;                     ///< of each piece
   std::vector<detail::DistanceGrid> grids;
   std::vector<double> limits;  ///< of each scale
   double step = 0.0;
   double tolerance = 0.0;
 
-  detail::ScaledBorder border(std::size_t piece) const {
-    return {&scales[piece], &limits, {&scales[piece][kFitScale], perimeters[piece]}};
+  detail::ScaledBorder border(std::size_t number) const {
+    return {&scales[number], &limits, {&scales[number][kFitScale], perimeters[number]}};
   }
 
   void find_limits() {
+    const auto outer = std::span(scales).first(areas.size());
     for (std::size_t k = 0; k < scales[0].size(); ++k)
-      limits.push_back(kTurningLimit * detail::usual_turning(scales, k));
+      limits.push_back(kTurningLimit * detail::usual_turning(outer, k));
   }
 
   /// About the area that lies deeper than the tolerance in both; the grids' cells are too coarse for what is less deep.
@@ -93,17 +96,24 @@ JoinFitter::JoinFitter(const std::vector<Piece>& pieces, const FitOptions& optio
   s.step = options.step > 0.0 ? options.step : automatic_step(pieces);
   s.tolerance = options.tolerance > 0.0 ? options.tolerance : kToleranceSteps * 2.0 * s.step;
   const std::size_t count = pieces.size();
-  s.scales.resize(count);
-  s.perimeters.resize(count);
+  for (std::size_t i = 0; i < count; ++i) s.borders.push_back({i, 0});
+  for (std::size_t i = 0; i < count; ++i)
+    for (const std::size_t hole : long_borders(pieces[i].outline, options.shortest_hole))
+      if (hole > 0) s.borders.push_back({i, hole});
+  s.scales.resize(s.borders.size());
+  s.perimeters.resize(s.borders.size());
   s.areas.resize(count);
   std::vector<std::optional<detail::DistanceGrid>> grids(count);
-  parallel_for(count, 1, [&](std::size_t first, std::size_t last) {
+  const int scales = std::max(options.scales, static_cast<int>(kFitScale) + 1);
+  parallel_for(s.borders.size(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
-      s.scales[i] =
-          scale_space(pieces[i].outline, {s.step, std::max(options.scales, static_cast<int>(kFitScale) + 1)});
-      s.perimeters[i] = perimeter(pieces[i].outline.points);
-      s.areas[i] = signed_area(pieces[i].outline.points);
-      grids[i].emplace(pieces[i].outline, kGridCells);
+      const auto& [piece, hole] = s.borders[i];
+      const std::vector<glm::dvec2>& border = border_of(pieces[piece].outline, hole);
+      s.scales[i] = scale_space(border, {s.step, scales});
+      s.perimeters[i] = perimeter(border);
+      if (hole > 0) continue;
+      s.areas[piece] = signed_area(border);
+      grids[piece].emplace(pieces[piece].outline, kGridCells);
     }
   });
   s.grids.reserve(count);
@@ -117,6 +127,10 @@ JoinFitter& JoinFitter::operator=(JoinFitter&&) noexcept = default;
 
 double JoinFitter::step() const {
   return state_->step;
+}
+
+const std::vector<BorderName>& JoinFitter::borders() const {
+  return state_->borders;
 }
 
 std::optional<FittedJoin> JoinFitter::fit(std::size_t a, std::size_t b,
@@ -137,8 +151,12 @@ std::optional<FittedJoin> JoinFitter::fit(std::size_t a, std::size_t b,
   join.boundary.begin_a = begin_a - std::floor(begin_a / s.perimeters[a]) * s.perimeters[a];
   join.boundary.begin_b = begin_b - std::floor(begin_b / s.perimeters[b]) * s.perimeters[b];
   join.boundary.length = 0.5 * (end_a - begin_a + begin_b - end_b);
-  const double overlap = s.deep_overlap(a, b, join.pose);
-  fitted.overlap_share = overlap / std::min(s.areas[a], s.areas[b]);
+  const auto& [piece_a, hole_a] = s.borders[a];
+  const auto& [piece_b, hole_b] = s.borders[b];
+  join.boundary.hole_a = hole_a;
+  join.boundary.hole_b = hole_b;
+  const double overlap = s.deep_overlap(piece_a, piece_b, join.pose);
+  fitted.overlap_share = overlap / std::min(s.areas[piece_a], s.areas[piece_b]);
   const double along_boundary = overlap / (s.tolerance * join.boundary.length);
   const double residual = fitted.residual / (kResidual * s.tolerance);
   fitted.evidence =

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -20,11 +21,18 @@ struct PairedPlaces {
 /// \pre not empty, all with a border
 double automatic_step(const std::vector<Piece>& pieces);
 
+/// A border that is compared: see border_of().
+struct BorderName {
+  std::size_t piece = 0;
+  std::size_t hole = 0;
+};
+
 struct FitOptions {
   double step = 0.0;  ///< finest scale, file units; 0: automatic_step()
   int scales = 6;     ///< looked at for agreement, each twice as coarse
   double tolerance =
       0.0;  ///< how far the two borders may be off each other along the join, file units; 0: from the pieces
+  double shortest_hole = std::numeric_limits<double>::infinity();  ///< of those that are compared, file units
 };
 
 /// A fitted join with what speaks for it.
@@ -44,12 +52,17 @@ class JoinFitter {
   JoinFitter(JoinFitter&&) noexcept;
   JoinFitter& operator=(JoinFitter&&) noexcept;
 
+  /// What can be fitted: the outer borders in the order of the pieces, then those of holes.  Holes do not change what the
+  /// scales and tolerances of the set are.
+  const std::vector<BorderName>& borders() const;
+
   /// Pose by least squares on the pairs, then by robust closest points along the boundary, which may stand a constant
   /// gap apart (worn edges); the boundary grows as far as the borders stay together.
   /// The score weighs how well the two borders' turning agrees along the boundary, scale by scale: -n/2 log(1 - r^2) for
   /// a correlation r of n samples.  So straight on straight says nothing, and what wear has taken from the fine scales is
   /// not missed at the coarse ones.  Overlap beyond the boundary's tolerance speaks against, and so does a distance between the
   /// two borders that varies along the boundary.
+  /// \param a, b   positions in borders()
   /// \param pairs  at least 2; on_a rises, on_b falls (B upside down: rises), both without jumps at the borders' ends
   /// \return nullopt: the borders do not meet there
   std::optional<FittedJoin> fit(std::size_t a, std::size_t b, const std::vector<PairedPlaces>& pairs) const;

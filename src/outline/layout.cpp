@@ -42,13 +42,11 @@ class System {
     const auto at_b = static_cast<Eigen::Index>(3 * index_b);
     const Motion relative(inverse(pull.pose_a) * pull.pose_b);
     const Motion to_group(pull.pose_a);
-    for (std::size_t k = 0, next = 1; k < pull.b.points.size(); k = next) {
-      const glm::dvec2 p = relative(pull.b.points[k]);
-      next = k + pull.a.field.stride(p, pull.b.step);
+    const auto add = [&](std::size_t k, const glm::dvec2& p) {
       const double depth = pull.a.field(p);
-      if (std::abs(depth) > pull.tolerance) continue;
+      if (std::abs(depth) > pull.tolerance) return;
       const glm::dvec2 inward = pull.a.field.gradient(p);
-      if (glm::dot(relative.direction(pull.b.normals[k]), inward) < kFacing * glm::length(inward)) continue;
+      if (glm::dot(relative.direction(pull.b.normals[k]), inward) < kFacing * glm::length(inward)) return;
       const glm::dvec2 direction = to_group.direction(inward);
       const glm::dvec2 place = to_group(p);
       const Eigen::Vector3d of_a = -row_of(frame_a, place, direction);
@@ -59,7 +57,8 @@ class System {
       normal_.block<3, 3>(at_b, at_a) += of_b * of_a.transpose();
       right_.segment<3>(at_a) -= of_a * depth;
       right_.segment<3>(at_b) -= of_b * depth;
-    }
+    };
+    for (const Ring& ring : pull.b.rings) visit_near(pull.b, ring, relative, pull.a.field, add);
   }
 
   /// nullopt: nothing pulls.

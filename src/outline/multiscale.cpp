@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "core/parallel.hpp"
 #include "outline/detail/closest.hpp"
@@ -23,6 +24,8 @@ constexpr double kLongBoundary = 1.0 / 3.0;
 /// Candidates that each of these scales adds.
 constexpr std::size_t kCoarseCandidates = 2;
 constexpr int kLeastSamples = 3;
+/// Area of a piece that may lie in a hole, as a share of the hole's: a scan takes a little off one and adds it to the other.
+constexpr double kHoleSlack = 1.25;
 
 class Multiscale final : public Matcher {
  public:
@@ -30,38 +33,61 @@ class Multiscale final : public Matcher {
 
   void prepare(const std::vector<Piece>& pieces) override {
     pieces_ = &pieces;
-    fitter_.emplace(pieces, FitOptions{options_.step});
-    const double step = fitter_->step();
-    perimeters_.clear();
     double mean = 0.0;
-    for (const Piece& piece : pieces) {
-      perimeters_.push_back(perimeter(piece.outline.points));
-      mean += perimeters_.back() / static_cast<double>(pieces.size());
-    }
+    for (const Piece& piece : pieces)
+      mean += perimeter(piece.outline.points) / static_cast<double>(pieces.size());
     min_length_ = options_.min_length > 0.0 ? options_.min_length : options_.min_length_share * mean;
+    FitOptions fit;
+    fit.step = options_.step;
+    fit.shortest_hole = min_length_;
+    fitter_.emplace(pieces, fit);
+    const double step = fitter_->step();
     scales_ = count_scales(step, min_length_);
     all_scales_ = std::max(scales_, count_scales(step, kLongBoundary * mean));
-    signals_.assign(pieces.size(), {});
-    parallel_for(pieces.size(), 1, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i)
-        signals_[i] = scale_space(pieces[i].outline, {step, all_scales_});
+    name_borders();
+    signals_.assign(borders_.size(), {});
+    parallel_for(borders_.size(), 1, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) signals_[i] = scale_space(*borders_[i], {step, all_scales_});
     });
     encode_all();
   }
 
   PairResult match(std::size_t a, std::size_t b, const Context& context) const override {
-    std::vector<std::vector<PairedPlaces>> starts = search(a, b, context);
     std::vector<FittedJoin> joins;
-    for (const auto& start : starts) {
-      if (context.cancelled()) break;
-      auto fitted = fitter_->fit(a, b, start);
-      if (fitted) joins.push_back(*fitted);
-    }
+    add_joins(a, b, context, joins);
+    for (const std::size_t hole : holes_[a])
+      if (may_lie_in(b, hole)) add_joins(hole, b, context, joins);
+    for (const std::size_t hole : holes_[b])
+      if (may_lie_in(a, hole)) add_joins(a, hole, context, joins);
     const double same = kSamePose * std::min(perimeters_[a], perimeters_[b]);
     return {distinct(std::move(joins), (*pieces_)[b], same, kReported)};
   }
 
  private:
+  void name_borders() {
+    borders_.clear();
+    perimeters_.clear();
+    holes_.assign(pieces_->size(), {});
+    for (const auto& [piece, hole] : fitter_->borders()) {
+      if (hole > 0) holes_[piece].push_back(borders_.size());
+      borders_.push_back(&border_of((*pieces_)[piece].outline, hole));
+      perimeters_.push_back(perimeter(*borders_.back()));
+    }
+  }
+
+  /// Whether a piece is small enough for a hole.
+  bool may_lie_in(std::size_t piece, std::size_t hole) const {
+    return signed_area(*borders_[piece]) <= -kHoleSlack * signed_area(*borders_[hole]);
+  }
+
+  void add_joins(std::size_t a, std::size_t b, const Context& context, std::vector<FittedJoin>& joins) const {
+    for (const auto& start : search(a, b, context)) {
+      if (context.cancelled()) return;
+      auto fitted = fitter_->fit(a, b, start);
+      if (fitted) joins.push_back(*fitted);
+    }
+  }
+
   /// K: scales down to which a boundary of L_min is not yet lost to blurred corners.
   int count_scales(double step, double min_length) const {
     int scales = 1;
@@ -75,7 +101,7 @@ class Multiscale final : public Matcher {
   void encode_all() {
     coded_.assign(signals_.size(), {});
     for (std::size_t k = 0; k < static_cast<std::size_t>(all_scales_); ++k) {
-      const double usual = detail::usual_turning(signals_, k);
+      const double usual = detail::usual_turning(std::span(signals_).first(pieces_->size()), k);
       for (std::size_t i = 0; i < signals_.size(); ++i)
         coded_[i].push_back(detail::encode(signals_[i][k], usual));
     }
@@ -185,7 +211,10 @@ class Multiscale final : public Matcher {
   MultiscaleOptions options_;
   const std::vector<Piece>* pieces_ = nullptr;
   std::optional<JoinFitter> fitter_;
+  // Of each border, as JoinFitter::borders() has them: the pieces' outer ones come first, each at its piece's position.
+  std::vector<const std::vector<glm::dvec2>*> borders_;
   std::vector<double> perimeters_;
+  std::vector<std::vector<std::size_t>> holes_;  ///< of each piece: positions among the borders
   double min_length_ = 0.0;
   int scales_ = 1;      ///< K, from L_min
   int all_scales_ = 1;  ///< with the coarser ones

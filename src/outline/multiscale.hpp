@@ -29,7 +29,8 @@ struct MultiscaleOptions {
   std::vector<MultiscaleLevel> levels;  ///< finest first, from calibrate(); missing ones: defaults
 };
 
-/// The matcher; prepare() computes the scale space of all pieces.
+/// The matcher; prepare() computes the scale space of all pieces.  A piece is compared with the holes of another too, if it is no
+/// larger and the hole's border is as long as the shortest boundary looked for.
 std::unique_ptr<Matcher> make_multiscale(const MultiscaleOptions& options = {});
 
 }  // namespace rejoin::outline

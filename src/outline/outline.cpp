@@ -71,6 +71,13 @@ double median_perimeter(const std::vector<Piece>& pieces) {
   return median(perimeters);
 }
 
+std::vector<std::size_t> long_borders(const Outline& outline, double least) {
+  std::vector<std::size_t> borders{0};
+  for (std::size_t hole = 1; hole <= outline.holes.size(); ++hole)
+    if (perimeter(border_of(outline, hole)) >= least) borders.push_back(hole);
+  return borders;
+}
+
 std::vector<double> arc_lengths(const std::vector<glm::dvec2>& polygon) {
   std::vector<double> lengths(polygon.size() + 1, 0.0);
   for (std::size_t i = 0; i < polygon.size(); ++i)

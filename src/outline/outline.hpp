@@ -80,6 +80,14 @@ struct Outline {
   std::vector<glm::dvec3> colour;  ///< of each point, sRGB 0..1, from just inside the border; empty: unknown
 };
 
+/// One of an outline's borders: 0 the outer one, k the k-th hole's.  \pre hole <= outline.holes.size()
+inline const std::vector<glm::dvec2>& border_of(const Outline& outline, std::size_t hole) {
+  return hole == 0 ? outline.points : outline.holes[hole - 1];
+}
+
+/// The outer border (0) and the holes, counted from 1, whose borders are `least` long or longer, file units.
+std::vector<std::size_t> long_borders(const Outline& outline, double least);
+
 /// A piece with its name.
 struct Piece {
   std::string
@@ -94,8 +102,10 @@ struct Piece {
 struct Boundary {
   double begin_a =
       0.0;  ///< arc length from A's first point to where the stretch begins, file units, 0 <= begin_a < perimeter
-  double begin_b = 0.0;  ///< the same on B, for the point that meets A's begin_a
-  double length = 0.0;   ///< mean of the stretch's lengths on A and B, file units
+  double begin_b = 0.0;    ///< the same on B, for the point that meets A's begin_a
+  double length = 0.0;     ///< mean of the stretch's lengths on A and B, file units
+  std::size_t hole_a = 0;  ///< the border of A along which it runs, see border_of(): a hole that B lies in
+  std::size_t hole_b = 0;  ///< the same of B
 };
 
 /// One way in which B may join A.

@@ -20,6 +20,8 @@ constexpr double kSamplesAReach = 4.0;
 // Borders meet within this many times their usual distance.
 constexpr double kUsualDistances = 5.0;
 constexpr double kLeastReach = 1.0 / 3.0;
+// Shorter borders of holes are specks, reaches.
+constexpr double kShortestHole = 10.0;
 
 /// Samples of all members' borders in the object's frame.
 struct Samples {
@@ -32,12 +34,15 @@ Samples sampled(const std::vector<Piece>& pieces, const std::vector<std::size_t>
                 const std::vector<Planar>& poses, double step) {
   Samples samples;
   for (const std::size_t piece : members) {
-    const std::vector<glm::dvec2>& border = pieces[piece].outline.points;
-    const std::vector<glm::dvec2> points = resample_by(border, step);
-    const double share = perimeter(border) / static_cast<double>(points.size());
-    for (const glm::dvec2& point : points) samples.points.push_back(poses[piece](point));
-    samples.owners.resize(samples.points.size(), piece);
-    samples.shares.resize(samples.points.size(), share);
+    const Outline& outline = pieces[piece].outline;
+    for (const std::size_t number : long_borders(outline, kShortestHole * kSamplesAReach * step)) {
+      const std::vector<glm::dvec2>& border = border_of(outline, number);
+      const std::vector<glm::dvec2> points = resample_by(border, step);
+      const double share = perimeter(border) / static_cast<double>(points.size());
+      for (const glm::dvec2& point : points) samples.points.push_back(poses[piece](point));
+      samples.owners.resize(samples.points.size(), piece);
+      samples.shares.resize(samples.points.size(), share);
+    }
   }
   return samples;
 }

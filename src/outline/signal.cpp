@@ -70,17 +70,17 @@ std::vector<double> curvature(const std::vector<glm::dvec2>& points) {
   return result;
 }
 
-std::vector<ScaleSignal> scale_space(const Outline& outline, const SignalOptions& options) {
-  const double length = perimeter(outline.points);
+std::vector<ScaleSignal> scale_space(const std::vector<glm::dvec2>& border, const SignalOptions& options) {
+  const double length = perimeter(border);
   const std::size_t fine_count =
       std::max(4 * kLeastSamples, static_cast<std::size_t>(std::lround(2.0 * length / options.step)));
-  const std::vector<glm::dvec2> border = resample(outline.points, fine_count);
+  const std::vector<glm::dvec2> even = resample(border, fine_count);
   const double fine = length / static_cast<double>(fine_count);
   std::vector<ScaleSignal> scales;
   scales.reserve(static_cast<std::size_t>(options.scales));
   double step = options.step;
   for (int k = 0; k < options.scales; ++k) {
-    scales.push_back(scale_of(border, fine, step));
+    scales.push_back(scale_of(even, fine, step));
     step *= 2.0;
   }
   return scales;

@@ -33,8 +33,8 @@ struct SignalOptions {
   int scales = 5;     ///< each twice as coarse as the one before
 };
 
-/// The border of one piece at all scales, finest first.  \source leitao 2000, steps 2.1 to 2.3 and "Filtering and
+/// A closed border at all scales, finest first.  \source leitao 2000, steps 2.1 to 2.3 and "Filtering and
 /// resampling"; deviation: every scale is smoothed from the border itself, which a Gaussian after a Gaussian equals.
-std::vector<ScaleSignal> scale_space(const Outline& outline, const SignalOptions& options);
+std::vector<ScaleSignal> scale_space(const std::vector<glm::dvec2>& border, const SignalOptions& options);
 
 }  // namespace rejoin::outline

@@ -97,9 +97,11 @@ detail::Polygon stretch_of(const detail::Polygon& polygon, double begin, double 
 
 /// What the two stretches of a boundary enclose: all along A's and back along B's.
 detail::Polygon strip_between(const Outline& a, const Outline& b, const JoinCandidate& join) {
-  const auto& [begin_a, begin_b, length] = join.boundary;
-  detail::Polygon strip = stretch_of(a.points, begin_a, length);
-  detail::Polygon back = stretch_of(b.points, join.pose.flipped ? begin_b : begin_b - length, length);
+  const auto& [begin_a, begin_b, length, hole_a, hole_b] = join.boundary;
+  detail::Polygon strip = stretch_of(border_of(a, hole_a), begin_a, length);
+  const detail::Polygon& border_b = border_of(b, hole_b);
+  const double on_b = std::min(length, perimeter(border_b));  // a mean may be longer than the shorter side
+  detail::Polygon back = stretch_of(border_b, join.pose.flipped ? begin_b : begin_b - on_b, on_b);
   if (join.pose.flipped) std::reverse(back.begin(), back.end());
   for (const glm::dvec2& p : back) strip.push_back(join.pose(p));
   return strip;

@@ -144,8 +144,9 @@ void draw_curvatures(Image& image, const outline::Outline& a, const outline::Out
                      const outline::JoinCandidate& best) {
   const outline::Boundary& boundary = best.boundary;
   const Area area{60, kTop + kPanel + 44, kWidth - 100, kPlotHeight - 84};
-  const std::vector<double> on_a = curvature_along(a.points, boundary.begin_a, boundary.length);
-  std::vector<double> on_b = curvature_along(b.points, boundary.begin_b, way_on_b(best));
+  const std::vector<double> on_a =
+      curvature_along(border_of(a, boundary.hole_a), boundary.begin_a, boundary.length);
+  std::vector<double> on_b = curvature_along(border_of(b, boundary.hole_b), boundary.begin_b, way_on_b(best));
   for (double& bend : on_b) bend = -bend;  // passed backwards, or turned over: true partners are equal
   std::vector<double> sizes;
   sizes.reserve(on_a.size() + on_b.size());
@@ -173,8 +174,11 @@ void draw_joined(Image& image, const outline::Piece& a, const outline::Piece& b,
   const View joined = view_of({a.outline.points, moved(b.outline.points, best.pose)}, a.y_up && b.y_up, 2);
   draw_piece(image, joined, a.outline, {}, kFillA);
   draw_piece(image, joined, b.outline, best.pose, kFillB);
-  const Polygon on_a = stretch(a.outline.points, best.boundary.begin_a, best.boundary.length, kSamples);
-  const Polygon on_b = stretch(b.outline.points, best.boundary.begin_b, way_on_b(best), kSamples);
+  const outline::Boundary& boundary = best.boundary;
+  const Polygon on_a =
+      stretch(border_of(a.outline, boundary.hole_a), boundary.begin_a, boundary.length, kSamples);
+  const Polygon on_b =
+      stretch(border_of(b.outline, boundary.hole_b), boundary.begin_b, way_on_b(best), kSamples);
   const auto [view_a, view_b] = views_apart(a, b);
   draw_curve(image, view_a, on_a, {}, kMark);
   draw_curve(image, view_b, on_b, {}, kMarkB);

@@ -23,7 +23,7 @@ Outline rectangle(glm::dvec2 low, glm::dvec2 high) {
 }
 
 TEST(DistanceField, IsTheDistanceToACircle) {
-  const DistanceField field(circle(50, 720).points, 0.5, 8.0);
+  const DistanceField field(circle(50, 720), 0.5, 8.0);
   for (const double radius : {43.0, 47.0, 50.0, 52.0, 56.0}) {
     for (int i = 0; i < 12; ++i) {
       const glm::dvec2 p(radius * std::cos(0.5 * i), radius * std::sin(0.5 * i));
@@ -36,14 +36,14 @@ TEST(DistanceField, IsTheDistanceToACircle) {
 }
 
 TEST(DistanceField, IsClampedFarFromTheBorder) {
-  const DistanceField field(rectangle({0, 0}, {100, 80}).points, 1.0, 5.0);
+  const DistanceField field(rectangle({0, 0}, {100, 80}), 1.0, 5.0);
   EXPECT_FLOAT_EQ(static_cast<float>(field({50, 40})), 5.0F);
   EXPECT_FLOAT_EQ(static_cast<float>(field({-3000, 40})), -5.0F);
   EXPECT_FLOAT_EQ(static_cast<float>(field({102, 40})), -2.0F);
 }
 
 TEST(DistanceField, StridesOverNothingThatItKnows) {
-  const DistanceField field(rectangle({0, 0}, {100, 80}).points, 1.0, 5.0);
+  const DistanceField field(rectangle({0, 0}, {100, 80}), 1.0, 5.0);
   EXPECT_EQ(field.stride({50, 40}, 2.0), 1U);
   EXPECT_GT(field.stride({-200, 40}, 2.0), 80U);
   for (int direction = 0; direction < 16; ++direction) {

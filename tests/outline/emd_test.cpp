@@ -12,7 +12,7 @@ namespace {
 /// Length of the first piece's border that lies along the second's, by the truth.
 double touching_length(const planted::Board& board) {
   const Planar placed = inverse(board.poses[1]) * board.poses[0];
-  const DistanceField field(board.pieces[1].outline.points, 0.25, 2.0);
+  const DistanceField field(board.pieces[1].outline, 0.25, 2.0);
   const std::vector<glm::dvec2>& border = board.pieces[0].outline.points;
   double length = 0.0;
   for (std::size_t i = 0; i < border.size(); ++i) {

@@ -31,14 +31,19 @@ inline std::vector<glm::dvec2> rough_line(glm::dvec2 from, glm::dvec2 to, double
 /// The same piece elsewhere, its points at other places of the border, with noise.
 inline Piece moved(const Piece& piece, const Planar& pose, double noise, Random& random) {
   Piece out = piece;
-  const std::vector<double> lengths = arc_lengths(piece.outline.points);
-  const std::size_t count = piece.outline.points.size();
-  const double shift = random.uniform();
-  for (std::size_t i = 0; i < count; ++i) {
-    const double s = lengths.back() * (static_cast<double>(i) + shift) / static_cast<double>(count);
-    const glm::dvec2 off(noise * random.normal(), noise * random.normal());
-    out.outline.points[i] = pose(point_at(piece.outline.points, lengths, s) + off);
-  }
+  const auto move = [&](std::vector<glm::dvec2>& border) {
+    const std::vector<glm::dvec2> before = border;
+    const std::vector<double> lengths = arc_lengths(before);
+    const std::size_t count = before.size();
+    const double shift = random.uniform();
+    for (std::size_t i = 0; i < count; ++i) {
+      const double s = lengths.back() * (static_cast<double>(i) + shift) / static_cast<double>(count);
+      const glm::dvec2 off(noise * random.normal(), noise * random.normal());
+      border[i] = pose(point_at(before, lengths, s) + off);
+    }
+  };
+  move(out.outline.points);
+  for (std::vector<glm::dvec2>& hole : out.outline.holes) move(hole);
   return out;
 }
 
@@ -91,6 +96,33 @@ inline Board broken_board(int columns, int rows, double noise, std::uint64_t see
     }
   }
   return board;
+}
+
+/// Breaks a piece about `radius` wide out of the middle of the board's first piece, which keeps a hole there; the plug is added at the
+/// end, at a place of its own.
+inline void break_out_plug(Board& board, double radius, double noise, std::uint64_t seed) {
+  Random random(seed);
+  constexpr int kCorners = 5;
+  std::vector<glm::dvec2> corners;
+  for (int k = 0; k < kCorners; ++k) {
+    const double angle = 2.0 * M_PI * k / kCorners;
+    corners.push_back(glm::dvec2(50.0, 50.0) +
+                      radius * random.uniform(0.8, 1.1) * glm::dvec2(std::cos(angle), std::sin(angle)));
+  }
+  Piece plug;
+  plug.name = "plug";
+  for (int k = 0; k < kCorners; ++k) {
+    const std::vector<glm::dvec2> line =
+        rough_line(corners[static_cast<std::size_t>(k)],
+                   corners[static_cast<std::size_t>((k + 1) % kCorners)], 0.1, 5, random);
+    plug.outline.points.insert(plug.outline.points.end(), line.begin(), line.end() - 1);
+  }
+  Piece hole = plug;
+  std::reverse(hole.outline.points.begin(), hole.outline.points.end());
+  board.pieces[0].outline.holes.push_back(moved(hole, inverse(board.poses[0]), noise, random).outline.points);
+  const Planar pose{random.uniform(-3.0, 3.0), {random.uniform(-500, 500), random.uniform(-500, 500)}, false};
+  board.pieces.push_back(moved(plug, pose, noise, random));
+  board.poses.push_back(inverse(pose));
 }
 
 /// Mean distance by which `pose` misplaces the points of `piece`.

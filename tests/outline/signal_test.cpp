@@ -42,7 +42,7 @@ TEST(Signal, SmoothingDampsAWaveAsAGaussianDoes) {
 TEST(Signal, TurningOfEveryScaleAddsUpToAFullTurn) {
   Outline outline;
   outline.points = testing::broken_tile(200, 100, {}, 4).lower.points;
-  for (const ScaleSignal& scale : scale_space(outline, {2.0, 4})) {
+  for (const ScaleSignal& scale : scale_space(outline.points, {2.0, 4})) {
     const double sum = std::accumulate(scale.turning.begin(), scale.turning.end(), 0.0);
     EXPECT_NEAR(sum, 2.0 * M_PI, 1e-4);
   }
@@ -51,7 +51,7 @@ TEST(Signal, TurningOfEveryScaleAddsUpToAFullTurn) {
 TEST(Signal, EachScaleIsTwiceAsCoarseAndKnowsItsPlaces) {
   Outline outline;
   outline.points = testing::circle(100.0, 2000);
-  const auto scales = scale_space(outline, {2.0, 4});
+  const auto scales = scale_space(outline.points, {2.0, 4});
   const double length = perimeter(outline.points);
   for (std::size_t k = 0; k < scales.size(); ++k) {
     EXPECT_NEAR(scales[k].step, 2.0 * std::pow(2.0, static_cast<double>(k)), 0.2);
@@ -69,7 +69,7 @@ TEST(Signal, BorderFarBelowTheStepIsItsMean) {
   constexpr double kSide = 1e-9;  // the whole kernel of such a step would take terabytes
   Outline outline;
   outline.points = {{0, 0}, {kSide, 0}, {kSide, kSide}, {0, kSide}};
-  for (const ScaleSignal& scale : scale_space(outline, {1.0, 2})) {
+  for (const ScaleSignal& scale : scale_space(outline.points, {1.0, 2})) {
     for (const glm::dvec2& point : scale.points)
       EXPECT_LT(glm::distance(point, {0.5 * kSide, 0.5 * kSide}), 0.01 * kSide);
   }
@@ -80,8 +80,8 @@ TEST(Signal, NothingDependsOnTheUnit) {
   small.points = testing::broken_tile(200, 100, {}, 5).lower.points;
   Outline large = small;
   for (glm::dvec2& p : large.points) p = p * 1024.0 + glm::dvec2(65536.0, -65536.0);
-  const auto a = scale_space(small, {2.0, 3});
-  const auto b = scale_space(large, {2048.0, 3});
+  const auto a = scale_space(small.points, {2.0, 3});
+  const auto b = scale_space(large.points, {2048.0, 3});
   for (std::size_t k = 0; k < a.size(); ++k) {
     ASSERT_EQ(a[k].turning.size(), b[k].turning.size());
     for (std::size_t i = 0; i < a[k].turning.size(); ++i) EXPECT_NEAR(a[k].turning[i], b[k].turning[i], 1e-5);

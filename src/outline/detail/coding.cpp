@@ -18,7 +18,7 @@ constexpr double kFromMedian = 1.4826;
 
 }  // namespace
 
-double usual_turning(const std::vector<std::vector<ScaleSignal>>& pieces, std::size_t k) {
+double usual_turning(std::span<const std::vector<ScaleSignal>> pieces, std::size_t k) {
   std::vector<float> sizes;
   for (const auto& piece : pieces) {
     for (const float t : piece[k].turning) sizes.push_back(std::abs(t));

@@ -1,6 +1,7 @@
 /// Borders as the sequences that the multi-scale method compares.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "outline/detail/pairing.hpp"
@@ -16,7 +17,7 @@ struct Coded {
 
 /// The usual size of turning at scale k of a set: a standard deviation, found from the median of the sizes.
 /// \param pieces  the scales of each piece
-double usual_turning(const std::vector<std::vector<ScaleSignal>>& pieces, std::size_t k);
+double usual_turning(std::span<const std::vector<ScaleSignal>> pieces, std::size_t k);
 
 /// \param usual  usual_turning() of this scale
 Coded encode(const ScaleSignal& signal, double usual);
