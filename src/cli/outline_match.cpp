@@ -78,6 +78,7 @@ class OutlineMatchCommand final : public Command {
     if (out_) require_out();
     const std::vector<outline::Piece> pieces{load_piece(path_a_, console), load_piece(path_b_, console)};
     if (const auto doubt = outline::doubt_resolutions({path_a_, path_b_})) console.warning(*doubt);
+    if (const auto doubt = outline::doubt_axes(pieces)) console.warning(*doubt);
     check_calibration(calibration_, multiscale, pieces, console);
     console.detail(fmt::format("read both pieces in {:.2f} s", seconds_since(begin)));
     const std::unique_ptr<outline::Matcher> matcher = make_matcher(method_, multiscale);

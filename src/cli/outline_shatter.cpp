@@ -18,7 +18,7 @@ enum class Format { Csv, Pixels, Png };
 const Choices<Format> kFormats{{"csv", Format::Csv}, {"pixels", Format::Pixels}, {"png", Format::Png}};
 
 std::string csv_of(const outline::Outline& outline) {
-  std::string text = "x,y\n";
+  std::string text = "x,y_down\n";  // pixels of a scan
   for (const glm::dvec2& p : outline.points) text += fmt::format("{:.4f},{:.4f}\n", p.x, p.y);
   return text;
 }

@@ -54,9 +54,15 @@ Outline outline_of(detail::Rings& rings, const std::string& subject, std::vector
   return outline;
 }
 
+/// Outlines of one file.
+struct Outlines {
+  std::vector<Outline> all;
+  bool y_up = false;
+};
+
 /// What can be used of a file's outlines, largest first.
 /// \throws InputError none can
-std::vector<Outline> read_outlines(const std::string& path, Kind kind, std::vector<std::string>& notes) {
+Outlines read_outlines(const std::string& path, Kind kind, std::vector<std::string>& notes) {
   const std::string text = read_text(path);
   // Drawings may be UTF-16.
   if (kind != Kind::Svg && text.find('\0') != std::string::npos)
@@ -67,6 +73,7 @@ std::vector<Outline> read_outlines(const std::string& path, Kind kind, std::vect
   if (kind == Kind::GeoJson) all = detail::read_geojson(path, text);
   std::vector<Outline> outlines;
   outlines.reserve(all.size());
+  const bool y_up = !all.empty() && all[0].y_up;
   std::exception_ptr first_problem;
   for (detail::Rings& rings : all) {
     try {
@@ -80,7 +87,7 @@ std::vector<Outline> read_outlines(const std::string& path, Kind kind, std::vect
   std::stable_sort(outlines.begin(), outlines.end(), [](const Outline& a, const Outline& b) {
     return signed_area(a.points) > signed_area(b.points);
   });
-  return outlines;
+  return {std::move(outlines), y_up};
 }
 
 /// Whether two pictures' pieces lie in the same pixels and have the same colours, but for what saving them in another format changes.
@@ -142,23 +149,23 @@ bool has_piece_name(const std::string& path) {
 PieceSet read_pieces(const std::string& path, const ExtractOptions& options) {
   const Kind kind = kind_of(path);
   PieceSet set;
-  std::vector<Outline> outlines;
+  Outlines outlines;
   if (kind == Kind::Unknown) {
     throw InputError(path, "is neither a picture nor an outline",
                      "give a png, jpg, tif, csv, svg or geojson file");
   }
   if (kind == Kind::Picture) {
     Extraction found = extract(path, options);
-    outlines = std::move(found.pieces);
+    outlines.all = std::move(found.pieces);
     for (const std::string& note : found.notes) set.notes.push_back(fmt::format("{}: {}", path, note));
   } else {
     outlines = read_outlines(path, kind, set.notes);
   }
   const std::string name = fs::path(path).filename().string();
-  set.pieces.reserve(outlines.size());
-  for (std::size_t i = 0; i < outlines.size(); ++i)
-    set.pieces.push_back({i == 0 ? name : fmt::format("{}#{}", name, i + 1), path, std::move(outlines[i]),
-                          kind == Kind::Csv || kind == Kind::GeoJson});
+  set.pieces.reserve(outlines.all.size());
+  for (std::size_t i = 0; i < outlines.all.size(); ++i)
+    set.pieces.push_back(
+        {i == 0 ? name : fmt::format("{}#{}", name, i + 1), path, std::move(outlines.all[i]), outlines.y_up});
   return set;
 }
 
@@ -207,6 +214,18 @@ std::optional<std::string> doubt_resolutions(const std::vector<std::string>& fil
       "{} says that it has {:.5g} dots or units an inch, {} {:.5g}: pieces fit only at one resolution, so "
       "scale the files to one if that is so",
       most->second, most->first, least->second, least->first);
+}
+
+std::optional<std::string> doubt_axes(const std::vector<Piece>& pieces) {
+  const auto is_up = [](const Piece& piece) { return piece.y_up; };
+  const auto up = std::ranges::find_if(pieces, is_up);
+  const auto down = std::ranges::find_if_not(pieces, is_up);
+  if (up == pieces.end() || down == pieces.end()) return std::nullopt;
+  return fmt::format(
+      "{} has y up, as maps have, and {} has y down, as pictures have, so that one is the mirror image of "
+      "its piece beside the other; save "
+      "both as one kind, or call the column of a csv that was taken from a picture y_down",
+      up->name, down->name);
 }
 
 /// Adds what a file of a folder holds, or why it cannot be used.
@@ -270,6 +289,7 @@ PieceSet read_folder(const std::string& folder, const ExtractOptions& options) {
   std::erase_if(files, [&](const fs::path& file) { return !add_file(file, options, all); });
   const auto doubt = doubt_resolutions({files.begin(), files.end()});
   if (doubt) all.notes.push_back(*doubt);
+  if (const auto mirrored = doubt_axes(all.pieces)) all.notes.push_back(*mirrored);
   take_out_repeats(all);
   if (all.pieces.empty()) throw InputError(folder, "holds nothing that can be used", all.unusable[0].reason);
   return all;

@@ -30,7 +30,7 @@ bool has_piece_name(const std::string& path);
 /// Pieces of one file, by its name's ending:
 /// - png, jpg, jpeg, tif, tiff: pictures, see extract()
 /// - csv, txt: one outline, a point "x,y" a line (comma, semicolon, tab or blanks); "1,5;2,5" and "1,5 2,5" have
-///   decimal commas; a first line of words may say which columns are x and y, else they are the first two
+///   decimal commas; a first line of words may say which columns are x and y, else they are the first two; y points up unless that line calls it y_down
 /// - svg: each closed subpath of paths, polygons, rectangles, circles and ellipses is a border, one inside another a
 ///   hole; curves are flattened, transforms applied; what is hidden, drawn twice or covers the page is left out, with a
 ///   note, and so is told what a drawing has that is not read
@@ -45,6 +45,10 @@ PieceSet read_pieces(const std::string& path, const ExtractOptions& options = {}
 /// \throws IoError    no such folder
 /// \throws InputError no file in it is known, or none can be used
 PieceSet read_folder(const std::string& folder, const ExtractOptions& options = {});
+
+/// What to say of pieces of which some have y up and some down, which their coordinates are compared as if they had not;
+/// nullopt: all have it the same way.  read_folder() has it in its notes.
+std::optional<std::string> doubt_axes(const std::vector<Piece>& pieces);
 
 /// What to say of pictures and drawings whose files tell different resolutions or units; up to 96 dots an inch, which programs
 /// write where they know none, are passed over.  read_folder() has it in its notes.

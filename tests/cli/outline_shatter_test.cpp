@@ -64,6 +64,23 @@ TEST(OutlineShatter, TheSameSeedGivesTheSameBytes) {
               read_file(folder / (std::string("two/") + file)));
 }
 
+TEST(OutlineShatter, CsvHasYTheWayOfThePictures) {
+  const TemporaryFolder folder;
+  for (const char* format : {"csv", "png"}) {
+    const Finished made = run({"outline", "shatter", folder / format, "--tiles", "1", "--pieces", "3",
+                               "--resolution", "100", "--format", format});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+  }
+  const std::string picture = folder / "png/piece_001.png";
+  const Finished same = run({"outline", "match", folder / "csv/piece_000.csv", picture});
+  EXPECT_EQ(same.exit_code, 0);
+  EXPECT_EQ(same.err.find("mirror"), std::string::npos) << same.err;
+  const std::string text = read_file(folder / "csv/piece_000.csv");
+  write_file(folder / "map.csv", "x,y" + text.substr(text.find('\n')));
+  const Finished mirrored = run({"outline", "match", folder / "map.csv", picture});
+  EXPECT_NE(mirrored.err.find("map.csv has y up"), std::string::npos) << mirrored.err;
+}
+
 TEST(OutlineShatter, LeavesAFolderWithFilesAlone) {
   const TemporaryFolder folder;
   const std::string pieces = folder / "pieces";

@@ -206,6 +206,10 @@ TEST_F(Read, GeoJsonPolygonsWithHoles) {
 
 TEST_F(Read, MapsAndTablesHaveYUpAndDrawingsDown) {
   EXPECT_TRUE(read_pieces(write("a.csv", "0,0\n1,0\n1,1\n0,1\n")).pieces[0].y_up);
+  EXPECT_TRUE(read_pieces(write("b.csv", "x,y\n0,0\n1,0\n1,1\n0,1\n")).pieces[0].y_up);
+  EXPECT_FALSE(read_pieces(write("c.csv", "x,y_down\n0,0\n1,0\n1,1\n0,1\n")).pieces[0].y_up);
+  EXPECT_FALSE(
+      read_pieces(write("d.csv", "n;X [px];Y_down [px]\n7;0;0\n7;1;0\n7;1;1\n7;0;1\n")).pieces[0].y_up);
   EXPECT_TRUE(
       read_pieces(write("a.geojson", R"({"type":"Polygon","coordinates":[[[0,0],[1,0],[1,1],[0,1]]]})"))
           .pieces[0]

@@ -98,6 +98,13 @@ std::optional<Columns> named_columns(std::string_view line) {
   return columns;
 }
 
+/// Whether a column called y says that it points down, as in pictures: "y_down".
+bool points_down(std::string_view cell) {
+  constexpr std::string_view kDown = "y_down";
+  return std::ranges::equal(cell.substr(0, kDown.size()), kDown,
+                            [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
+}
+
 bool is_digit(std::string_view text, std::size_t i) {
   return i < text.size() && text[i] >= '0' && text[i] <= '9';
 }
@@ -169,6 +176,7 @@ class Reader {
   }
 
   std::vector<glm::dvec2> points;
+  bool y_up = true;
 
  private:
   void add(std::string_view line, std::size_t number) {
@@ -189,6 +197,7 @@ class Reader {
   void take_names(std::string_view line) {
     const auto named = named_columns(line);
     columns_ = named.value_or(Columns{});
+    if (named) y_up = !points_down(cells(line)[named->y]);
     if (!named && cells(line).size() > 2)
       notes_.push_back(path_ + ": no columns are named x and y; the first two are taken");
   }
@@ -218,7 +227,7 @@ std::vector<Rings> read_csv(const std::string& path, const std::string& file,
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   Reader reader(path, notes);
   reader.read(text);
-  return {{{std::move(reader.points)}, ""}};
+  return {{{std::move(reader.points)}, "", reader.y_up}};
 }
 
 }  // namespace rejoin::outline::detail

@@ -50,6 +50,7 @@ class Reader {
     if (!polygon.is_array()) fail("it has no ring");
     if (polygon.empty()) return;  // GeoJSON's word for no polygon
     Rings rings;
+    rings.y_up = true;
     rings.place = fmt::format("polygon {}", result.size() + 1);
     for (const json& ring : polygon) rings.rings.push_back(points(ring));
     result.push_back(std::move(rings));

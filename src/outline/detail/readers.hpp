@@ -11,8 +11,10 @@ namespace rejoin::outline::detail {
 struct Rings {
   std::vector<std::vector<glm::dvec2>> rings;
   std::string place;  ///< of the border in the file, "polygon 3", for messages
+  bool y_up = false;
 };
 
+/// y points up, but where the first line calls it "y_down".
 /// \param notes  gets what is doubtful, for the user
 /// \throws InputError a line is no point, or the first of several columns counts them
 std::vector<Rings> read_csv(const std::string& path, const std::string& text,
