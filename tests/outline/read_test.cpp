@@ -154,14 +154,79 @@ TEST_F(Read, SvgDrawingsInDrawingsAndTransformsOfStylesAreApplied) {
       std::pair(glm::dvec2(2, 3), 100.0));
 }
 
+/// "low x, low y, width, height" of each piece's box, largest area first.
+std::vector<std::string> boxes_of(const PieceSet& set) {
+  std::vector<std::string> boxes;
+  for (const Piece& piece : set.pieces) {
+    glm::dvec2 low = piece.outline.points[0];
+    glm::dvec2 high = low;
+    for (const glm::dvec2& p : piece.outline.points) {
+      low = glm::min(low, p);
+      high = glm::max(high, p);
+    }
+    boxes.push_back(fmt::format("{:.6g},{:.6g},{:.6g},{:.6g}", low.x, low.y, high.x - low.x, high.y - low.y));
+  }
+  return boxes;
+}
+
+TEST_F(Read, SvgCopiesStandWhereTheyAreShown) {
+  using Boxes = std::vector<std::string>;
+  const auto boxes = [&](const std::string& content) {
+    return boxes_of(read_pieces(
+        write("a.svg",
+              "<svg xmlns:xlink='x' viewBox='0 0 1000 1000'><defs><rect id='r' x='1' width='6' height='4'/>"
+              "<g id='g'><rect width='5' height='3'/><circle cx='50' r='1'/></g></defs>" +
+                  content + "</svg>")));
+  };
+  EXPECT_EQ(boxes("<use href='#r'/>"), Boxes{"1,0,6,4"});
+  EXPECT_EQ(boxes("<use xlink:href='#r' x='10' y='20' transform='scale(2)'/>"), Boxes{"22,40,12,8"});
+  EXPECT_EQ(boxes("<g transform='translate(100)'><use href='#g' y='7'/></g>"),
+            (Boxes{"100,7,5,3", "149,6,2,2"}));
+  EXPECT_EQ(boxes("<use id='u' href='#r' x='10'/><use href='#u' y='9'/>"), (Boxes{"11,0,6,4", "11,9,6,4"}));
+  EXPECT_EQ(boxes("<use href='#r'/><g display='none'><use href='#r' x='50'/></g>"), Boxes{"1,0,6,4"});
+  const std::string symbol = "<symbol id='s' viewBox='0 0 10 10'><rect width='10' height='5'/></symbol>";
+  EXPECT_EQ(boxes(symbol + "<use href='#s' x='30' y='40' width='20' height='20'/>"), Boxes{"30,40,20,10"});
+  EXPECT_EQ(boxes("<symbol id='s'><rect width='10' height='5'/></symbol><use href='#s' x='30'/>"),
+            Boxes{"30,0,10,5"});
+}
+
+TEST_F(Read, SvgStyleSheetsHideAndMove) {
+  using Boxes = std::vector<std::string>;
+  const auto boxes = [&](const std::string& sheet, const std::string& content) {
+    return boxes_of(read_pieces(write("a.svg", "<svg viewBox='0 0 1000 1000'>" + content +
+                                                   "<rect id='other' width='2' height='1'/><style>" + sheet +
+                                                   "</style></svg>")));
+  };
+  const std::string shape = "<rect class='a b' id='c' x='10' width='5' height='5'/>";
+  const Boxes both{"10,0,5,5", "0,0,2,1"};
+  const Boxes other{"0,0,2,1"};
+  EXPECT_EQ(boxes(".d { display: none } #cc{display:none} circle{display:none}", shape), both);
+  EXPECT_EQ(boxes("/* .x { */ .b\n{ fill: none; display :none; }", shape), other);
+  EXPECT_EQ(boxes("<![CDATA[#c,#d{visibility:hidden}]]>", shape), other);
+  EXPECT_EQ(boxes("rect.a.b#c { display: none }", shape), other);
+  EXPECT_EQ(boxes(".a { transform: translate(7px, 1px) }", shape), (Boxes{"17,1,5,5", "0,0,2,1"}));
+  // The more special selector counts, then the later one, then what is important; the element's own style is before the sheet.
+  EXPECT_EQ(boxes("#c { display: inline } .a { display: none }", shape), both);
+  EXPECT_EQ(boxes(".b { display: none } .a { display: inline }", shape), both);
+  EXPECT_EQ(boxes(".a { display: none !important } #c { display: inline }", shape), other);
+  const std::string styled = "<rect class='a' style='display:inline' x='10' width='5' height='5'/>";
+  EXPECT_EQ(boxes(".a { display: none }", styled), both);
+  const std::string attribute = "<rect class='a' display='inline' x='10' width='5' height='5'/>";
+  EXPECT_EQ(boxes("@import url(x); .a { display: none }", attribute), other);
+  EXPECT_EQ(boxes(".hidden * { fill: red } .a { display: none }", "<g class='a'>" + shape + "</g>"), other);
+}
+
 TEST_F(Read, SvgTellsWhatItDoesNotRead) {
   const std::string shape = "<polygon points='0,0 5,0 5,5 0,5'/>";
   const auto note = [&](const std::string& content) {
     const PieceSet set = read_pieces(write("a.svg", "<svg>" + shape + content + "</svg>"));
     return set.notes.size() == 1 ? set.notes[0] : std::to_string(set.notes.size());
   };
-  EXPECT_NE(note("<use href='#a'/><use href='#b'/>").find("(<use>)"), std::string::npos);
-  EXPECT_NE(note("<style>.a { display: none }</style>").find("style sheets"), std::string::npos);
+  EXPECT_NE(note("<use href='#b'/><use href='other.svg#a'/>").find("(<use>)"), std::string::npos);
+  EXPECT_NE(note("<style>g > .a { display: none }</style>").find("style sheet"), std::string::npos);
+  EXPECT_NE(note("<style>@media print { .a { display: none } }</style>").find("style sheet"),
+            std::string::npos);
+  EXPECT_EQ(note("<style>g > .a { fill: none }</style>"), "0");
   EXPECT_NE(note("<g clip-path='url(#a)'/>").find("clip path"), std::string::npos);
   EXPECT_NE(note("<g transform-origin='center'/>").find("transform-origin"), std::string::npos);
   EXPECT_EQ(note("<style>.a { fill: none }</style>"), "0");
@@ -185,8 +250,10 @@ TEST_F(Read, BrokenSvgIsRefused) {
   expect_refusal("a.svg", "<svg><path d='M0 0 L", "no SVG");
   expect_refusal("b.svg", "<svg><path d='M0 0 L 1 x'/></svg>", "path data");
   expect_refusal("c.svg", "<svg></svg>", "no closed shape");
-  expect_refusal("d.svg", "<svg><defs><rect id='a' width='4' height='4'/></defs><use href='#a'/></svg>",
-                 "holds no closed shape; copies of shapes (<use>)");
+  expect_refusal("d.svg", "<svg><defs><rect id='a' width='4' height='4'/></defs><use href='#b'/></svg>",
+                 "holds no closed shape; a copy (<use>)");
+  expect_refusal("f.svg", "<svg><g id='a'><rect width='4' height='4'/><use href='#a' x='9'/></g></svg>",
+                 "too deep");
   expect_refusal("e.svg", "<svg><rect style='display:none' width='4' height='4'/></svg>",
                  "that is not hidden");
 }

@@ -45,12 +45,6 @@ std::optional<double> take_number(std::string_view& line) {
   return value;
 }
 
-std::string_view trimmed(std::string_view text, std::string_view away) {
-  const std::size_t begin = text.find_first_not_of(away);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(away) + 1 - begin);
-}
-
 /// The next line, taken off the text with its end, which is one of "\n", "\r\n" and "\r".
 std::string_view take_line(std::string_view& text) {
   const std::size_t end = text.find_first_of("\r\n");

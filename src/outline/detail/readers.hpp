@@ -3,6 +3,7 @@
 
 #include <glm/glm.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace rejoin::outline::detail {
@@ -32,6 +33,13 @@ double svg_units_an_inch(const std::string& path, const std::string& text);
 
 /// \throws InputError broken JSON, or no polygon in it
 std::vector<Rings> read_geojson(const std::string& path, const std::string& text);
+
+/// A text without the characters of `away` at its ends.
+inline std::string_view trimmed(std::string_view text, std::string_view away) {
+  const std::size_t begin = text.find_first_not_of(away);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(away) + 1 - begin);
+}
 
 /// Sorts closed polygons into pieces with holes: a polygon inside an odd number of others is a hole of the smallest of them.
 std::vector<Rings> nest(const std::vector<std::vector<glm::dvec2>>& polygons);

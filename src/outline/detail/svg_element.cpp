@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "outline/detail/readers.hpp"
 #include "outline/detail/svg_path.hpp"
 
 namespace rejoin::outline::detail {
@@ -17,12 +18,7 @@ namespace {
 
 using Polygon = std::vector<glm::dvec2>;
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r\n";
-  const std::size_t begin = text.find_first_not_of(kBlanks);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
-}
+constexpr std::string_view kBlanks = " \t\r\n";
 
 /// A property of a style attribute, "fill: none; display: none".
 std::string_view style_property(std::string_view style, std::string_view name) {
@@ -31,8 +27,8 @@ std::string_view style_property(std::string_view style, std::string_view name) {
     const std::string_view one = style.substr(0, style.find(';'));
     style.remove_prefix(std::min(style.size(), one.size() + 1));
     const std::size_t colon = one.find(':');
-    if (colon != std::string_view::npos && trimmed(one.substr(0, colon)) == name)
-      value = trimmed(one.substr(colon + 1));
+    if (colon != std::string_view::npos && trimmed(one.substr(0, colon), kBlanks) == name)
+      value = trimmed(one.substr(colon + 1), kBlanks);
   }
   return value;
 }
@@ -137,7 +133,7 @@ std::string local_name(const pugi::xml_node& node) {
 
 std::string property(const pugi::xml_node& node, const char* name) {
   const std::string_view styled = style_property(node.attribute("style").value(), name);
-  return std::string(styled.empty() ? trimmed(node.attribute(name).value()) : styled);
+  return std::string(styled.empty() ? trimmed(node.attribute(name).value(), kBlanks) : styled);
 }
 
 glm::dmat3 transform_of(const pugi::xml_node& node, const std::string& path) {
@@ -167,7 +163,7 @@ std::optional<Length> length_of(const pugi::xml_node& node, const char* name, do
   if (text.empty() || text == "auto") return std::nullopt;
   double number = 0.0;
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
-  const std::string unit(trimmed({end, static_cast<std::size_t>(text.data() + text.size() - end)}));
+  const std::string unit(trimmed({end, static_cast<std::size_t>(text.data() + text.size() - end)}, kBlanks));
   if (problem == std::errc()) {
     if (unit.empty() || unit == "px") return Length{number, false};
     if (unit == "%") return Length{number / 100.0 * reference, false};

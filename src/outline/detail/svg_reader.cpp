@@ -10,6 +10,7 @@
 #include "core/words.hpp"
 #include "outline/detail/readers.hpp"
 #include "outline/detail/svg_element.hpp"
+#include "outline/detail/svg_sheet.hpp"
 #include "outline/outline.hpp"
 #include "outline/polygon.hpp"
 
@@ -18,7 +19,8 @@ namespace {
 
 using Polygon = std::vector<glm::dvec2>;
 
-constexpr int kDeepest = 200;        ///< groups in groups
+constexpr int kDeepest = 200;  ///< groups in groups, and copies in copies
+constexpr int kMostCopies = 10000;
 constexpr double kPageEdge = 1e-3;   ///< of its size, by which a page's background may miss it
 constexpr double kSameShape = 1e-9;  ///< of the coordinates, by which a shape that is drawn twice may differ
 
@@ -43,6 +45,12 @@ glm::dmat3 placed_in(const ViewBox& box, const ViewBox& place) {
   const double scale = std::min(shares.x, shares.y);
   glm::dmat3 m(scale);
   m[2] = glm::dvec3(0.5 * (place.low + place.high - scale * (box.low + box.high)), 1.0);
+  return m;
+}
+
+glm::dmat3 shift(const glm::dvec2& by) {
+  glm::dmat3 m(1.0);
+  m[2] = glm::dvec3(by, 1.0);
   return m;
 }
 
@@ -75,6 +83,10 @@ class Reader {
     Scope page;
     page_ = view_box(root, page.size, path_);
     page.size = page_.high - page_.low;
+    if (apply_style_sheets(root))
+      unread_.insert(
+          "a style sheet hides or moves shapes by selectors other than elements, classes and ids; write that "
+          "into the shapes");
     read(root, page, 0);
     leave_out_background();
     if (hidden_ > 0) note(fmt::format("{} left out as hidden", counted(hidden_, "shape")));
@@ -93,31 +105,70 @@ class Reader {
 
   void read(const pugi::xml_node& node, Scope scope, int depth) {
     const std::string name = local_name(node);
+    if (!is_drawn_elsewhere(name)) draw(node, name, scope, depth);
+  }
+
+  /// \param use  what shows the element as a copy; none: it is shown where it stands
+  void draw(const pugi::xml_node& node, const std::string& name, Scope scope, int depth,
+            const pugi::xml_node& use = {}) {
     if (depth > kDeepest) throw InputError(path_, "groups lie too deep in each other", kSvgMend);
-    if (name == "style") return look_at_sheet(node);
-    if (is_drawn_elsewhere(name)) return;
     look_for_unread(node, name, depth);
-    enter(node, name, depth, scope);
+    enter(node, scope);
+    if (name == "symbol" || (name == "svg" && depth > 0)) enter_drawing(node, use, scope);
+    if (name == "use") return draw_copy(node, scope, depth);
     for (Polygon& polygon : polygons_of(node, scope.size, path_)) add(std::move(polygon), scope);
     for (const pugi::xml_node& child : node.children()) read(child, scope, depth + 1);
   }
 
-  void enter(const pugi::xml_node& node, const std::string& name, int depth, Scope& scope) const {
+  void draw_copy(const pugi::xml_node& use, Scope scope, int depth) {
+    if (++copies_ > kMostCopies)
+      throw InputError(path_, fmt::format("has more than {} copies of shapes", kMostCopies), kSvgMend);
+    const pugi::xml_node original = original_of(use);
+    const std::string name = local_name(original);
+    if (!original || (is_drawn_elsewhere(name) && name != "symbol")) {
+      unread_.insert("a copy (<use>) of what is not a shape of this file is left out");
+      return;
+    }
+    const auto x = length_of(use, "x", scope.size.x, path_);
+    const auto y = length_of(use, "y", scope.size.y, path_);
+    scope.to_page = scope.to_page * shift({x ? x->value : 0.0, y ? y->value : 0.0});
+    draw(original, name, scope, depth + 1, use);
+  }
+
+  /// What a copy is of; none: nothing in this file.
+  pugi::xml_node original_of(const pugi::xml_node& use) const {
+    std::string_view href = use.attribute("href").value();
+    if (href.empty()) href = use.attribute("xlink:href").value();
+    if (!href.starts_with('#')) return {};
+    return use.root().find_node([&](const pugi::xml_node& node) {
+      return node.attribute("id") && href.substr(1) == node.attribute("id").value();
+    });
+  }
+
+  void enter(const pugi::xml_node& node, Scope& scope) const {
     if (property(node, "display") == "none") scope.displayed = false;
     const std::string visibility = property(node, "visibility");
     if (!visibility.empty()) scope.visible = visibility == "visible";
     scope.to_page = scope.to_page * transform_of(node, path_);
-    if (name != "svg" || depth == 0) return;
-    const auto length = [&](const char* attribute, double around, double other) {
-      const auto given = length_of(node, attribute, around, path_);
+  }
+
+  /// Into the coordinates of a drawing in the drawing, whose size its copy may set.
+  void enter_drawing(const pugi::xml_node& node, const pugi::xml_node& use, Scope& scope) const {
+    const auto length = [&](const char* attribute, double around, double other, const pugi::xml_node& first) {
+      auto given = length_of(first, attribute, around, path_);
+      if (!given) given = length_of(node, attribute, around, path_);
       return given ? given->value : other;
     };
     ViewBox place;
-    place.low = {length("x", scope.size.x, 0.0), length("y", scope.size.y, 0.0)};
-    place.high = place.low + glm::dvec2(length("width", scope.size.x, scope.size.x),
-                                        length("height", scope.size.y, scope.size.y));
-    ViewBox box{{}, place.high - place.low};
-    if (!node.attribute("viewBox").empty()) box = view_box(node, scope.size, path_);
+    place.low = {length("x", scope.size.x, 0.0, node), length("y", scope.size.y, 0.0, node)};
+    place.high = place.low + glm::dvec2(length("width", scope.size.x, scope.size.x, use),
+                                        length("height", scope.size.y, scope.size.y, use));
+    if (node.attribute("viewBox").empty()) {
+      scope.to_page = scope.to_page * shift(place.low);
+      scope.size = place.high - place.low;
+      return;
+    }
+    const ViewBox box = view_box(node, scope.size, path_);
     if (glm::any(glm::lessThanEqual(glm::min(box.high - box.low, place.high - place.low), glm::dvec2(0.0))))
       throw InputError(path_, "a drawing in the drawing has no size", "give its width, height and viewBox");
     scope.to_page = scope.to_page * placed_in(box, place);
@@ -125,7 +176,6 @@ class Reader {
   }
 
   void look_for_unread(const pugi::xml_node& node, const std::string& name, int depth) {
-    if (name == "use") unread_.insert("copies of shapes (<use>) are not read; make them shapes of their own");
     const auto clips = [&](const char* by) {
       const std::string value = property(node, by);
       return !value.empty() && value != "none";
@@ -135,18 +185,9 @@ class Reader {
     if (!property(node, "transform-origin").empty())
       unread_.insert("transform-origin is not read; write transforms about the drawing's origin");
     const std::string_view fit = node.attribute("preserveAspectRatio").value();
-    if (name == "svg" && depth > 0 && !fit.empty() && fit != "xMidYMid" && fit != "xMidYMid meet")
+    if ((name == "symbol" || (name == "svg" && depth > 0)) && !fit.empty() && fit != "xMidYMid" &&
+        fit != "xMidYMid meet")
       unread_.insert("preserveAspectRatio is not read; the inner drawing is fitted into the middle");
-  }
-
-  void look_at_sheet(const pugi::xml_node& style) {
-    std::string text = style.text().get();
-    std::erase_if(text, [](unsigned char c) { return std::isspace(c) != 0; });
-    for (const char* what : {"display:none", "visibility:hidden", "transform:"}) {
-      if (text.find(what) != std::string::npos)
-        unread_.insert(
-            "style sheets are not read, and this one hides or moves shapes; write that into the shapes");
-    }
   }
 
   void add(Polygon polygon, const Scope& scope) {
@@ -178,6 +219,7 @@ class Reader {
   ViewBox page_;
   std::size_t hidden_ = 0;
   std::size_t repeated_ = 0;
+  int copies_ = 0;
   std::set<std::string> unread_;  ///< what the drawing has and this reader does not look at
 };
 
