@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
@@ -372,6 +374,64 @@ TEST(Extract, AJpegIsTurnedUprightAsItsExifSays) {
     middle += p / static_cast<double>(found.pieces[0].points.size());
   EXPECT_NEAR(middle.x, 119.0 - kCentre.y, 0.5);
   EXPECT_NEAR(middle.y, kCentre.x, 0.5);
+}
+
+std::uint32_t png_checksum(const std::string& bytes) {
+  std::uint32_t sum = 0xFFFFFFFF;
+  for (const char c : bytes) {
+    sum ^= static_cast<unsigned char>(c);
+    for (int bit = 0; bit < 8; ++bit) sum = (sum >> 1U) ^ ((sum & 1U) != 0 ? 0xEDB88320 : 0);
+  }
+  return ~sum;
+}
+
+std::string of_four_bytes(std::uint32_t number) {
+  std::string bytes;
+  for (const unsigned shift : {24U, 16U, 8U, 0U}) bytes += static_cast<char>(number >> shift & 0xFFU);
+  return bytes;
+}
+
+TEST(Extract, APngIsTurnedUprightAsItsExifSays) {
+  const Folder folder;
+  const std::string path = folder.file("disc.png");
+  cv::imwrite(path, with_alpha(disc({128, 120})));
+  const std::string plain = read_bytes(path);
+  const auto middle_with = [&](char orientation, std::size_t place) {
+    std::string exif(
+        "eXIf"
+        "MM\0*\0\0\0\x8"
+        "\0\1"
+        "\x1\x12\0\3\0\0\0\1\0\6\0\0"
+        "\0\0\0\0",
+        30);
+    exif[23] = orientation;
+    std::string bytes = plain;
+    bytes.insert(place, of_four_bytes(26) + exif + of_four_bytes(png_checksum(exif)));
+    std::ofstream(path, std::ios::binary) << bytes;
+    const Extraction found = extract(path);
+    glm::dvec2 middle(0.0);
+    for (const glm::dvec2& p : found.pieces.at(0).points)
+      middle += p / static_cast<double>(found.pieces[0].points.size());
+    return middle;
+  };
+  const std::size_t behind_header = 33;
+  const std::size_t at_the_end = plain.size() - 12;
+  const glm::dvec2 c = kCentre;
+  // Where the stored picture's place c is seen, by the orientation 1 to 8.
+  const std::array<glm::dvec2, 8> seen{{c,
+                                        {127 - c.x, c.y},
+                                        {127 - c.x, 119 - c.y},
+                                        {c.x, 119 - c.y},
+                                        {c.y, c.x},
+                                        {119 - c.y, c.x},
+                                        {119 - c.y, 127 - c.x},
+                                        {c.y, 127 - c.x}}};
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    for (const std::size_t place : {behind_header, at_the_end}) {
+      const glm::dvec2 middle = middle_with(static_cast<char>(k + 1), place);
+      EXPECT_LT(glm::distance(middle, seen[k]), 0.5) << k + 1;
+    }
+  }
 }
 
 TEST(Extract, FurtherPagesOfATiffAreTold) {

@@ -11,6 +11,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 
 namespace rejoin::outline {
 namespace {
@@ -449,6 +450,31 @@ TEST_F(Read, PicturesThatTellDifferentResolutionsAreDoubted) {
     file.write(bytes, sizeof bytes);
     file.close();
     EXPECT_EQ(read_folder(folder_.string()).notes.size(), notes) << unit;
+  }
+}
+
+TEST_F(Read, ResolutionOfAJpegMayStandInItsExif) {
+  cv::imwrite((folder_ / "a.tif").string(), blot(10),
+              {cv::IMWRITE_TIFF_RESUNIT, 2, cv::IMWRITE_TIFF_XDPI, 300, cv::IMWRITE_TIFF_YDPI, 300});
+  const std::string path = (folder_ / "b.jpg").string();
+  for (const char dots : {75, 60}) {
+    cv::imwrite(path, blot(50));
+    std::string bytes = read_file(path);
+    // In the place of the JFIF segment; one entry: tag 0x11A, a ratio that stands behind, `dots` over a quarter.
+    std::string exif(
+        "\xFF\xE1\0\x2A"
+        "Exif\0\0"
+        "II*\0\x8\0\0\0"
+        "\1\0"
+        "\x1A\1\5\0\1\0\0\0\x1A\0\0\0"
+        "\0\0\0\0"
+        "\0\0\0\0\x1\0\0\0",
+        44);
+    exif[37] = dots;  // times 256
+    exif[40] = 64;
+    bytes.replace(2, 18, exif);
+    std::ofstream(path, std::ios::binary) << bytes;
+    EXPECT_EQ(read_folder(folder_.string()).notes.size(), dots == 75 ? 0U : 1U) << static_cast<int>(dots);
   }
 }
 

@@ -28,72 +28,6 @@ std::optional<std::size_t> number_at(std::string_view bytes, std::size_t place, 
   return value;
 }
 
-/// From the pHYs chunk, which comes before the pixels: dots a metre.
-double png_resolution(std::string_view bytes) {
-  std::size_t place = kPngStart.size();
-  while (const auto length = number_at(bytes, place, 4, true)) {
-    const std::string_view kind = bytes.substr(std::min(place + 4, bytes.size()), 4);
-    if (kind == "pHYs") {
-      const auto across = number_at(bytes, place + 8, 4, true);
-      const auto unit = number_at(bytes, place + 16, 1, true);
-      return across && unit == 1U ? static_cast<double>(*across) * kCentimetresAnInch / 100.0 : 0.0;
-    }
-    if (kind == "IDAT" || kind.size() < 4 || *length > bytes.size()) return 0.0;
-    place += 12 + *length;
-  }
-  return 0.0;
-}
-
-std::optional<ImageHeader> png_header(std::string_view bytes) {
-  const auto width = number_at(bytes, 16, 4, true);
-  const auto height = number_at(bytes, 20, 4, true);
-  if (!width || !height) return std::nullopt;
-  return ImageHeader{*width, *height, png_resolution(bytes)};
-}
-
-/// From the JFIF segment, which comes first where there is one: its unit (1 inch, 2 cm) and dots across.
-double jpeg_resolution(std::string_view bytes) {
-  if (bytes.substr(6, 5) != std::string_view("JFIF\0", 5)) return 0.0;
-  const auto unit = number_at(bytes, 13, 1, true);
-  const auto across = number_at(bytes, 14, 2, true);
-  if (!unit || !across || *unit == 0 || *unit > 2) return 0.0;
-  return static_cast<double>(*across) * (*unit == 2 ? kCentimetresAnInch : 1.0);
-}
-
-/// Walks over the segments to the start of frame (SOF0 to SOF15 but DHT, JPG, DAC).
-std::optional<ImageHeader> jpeg_header(std::string_view bytes) {
-  std::size_t place = 2;
-  while (const auto marker = number_at(bytes, place, 2, true)) {
-    const auto length = number_at(bytes, place + 2, 2, true);
-    if (*marker < 0xFF00 || !length) return std::nullopt;
-    const bool frame =
-        *marker >= 0xFFC0 && *marker <= 0xFFCF && *marker != 0xFFC4 && *marker != 0xFFC8 && *marker != 0xFFCC;
-    if (frame) {
-      const auto height = number_at(bytes, place + 5, 2, true);
-      const auto width = number_at(bytes, place + 7, 2, true);
-      if (!width || !height) return std::nullopt;
-      return ImageHeader{*width, *height, jpeg_resolution(bytes)};
-    }
-    place += 2 + std::max<std::size_t>(*length, 2);
-  }
-  return std::nullopt;
-}
-
-/// Whether a JPEG ends with the marker of its end.  libjpeg paints grey what is missing, which looks like a piece.
-bool jpeg_is_whole(std::string_view bytes) {
-  std::size_t place = 2;
-  while (const auto marker = number_at(bytes, place, 2, true)) {
-    if (*marker == 0xFFDA) return bytes.find("\xFF\xD9", place) != std::string_view::npos;
-    if (*marker <= 0xFF00 || *marker == 0xFFFF) {  // bytes that libjpeg passes over
-      ++place;
-      continue;
-    }
-    // Over whole segments: a camera's small picture inside one has pixels and an end of its own.
-    place += 2 + std::max<std::size_t>(number_at(bytes, place + 2, 2, true).value_or(2), 2);
-  }
-  return false;
-}
-
 /// Two whole numbers, one over the other.
 double tiff_ratio(std::string_view bytes, std::size_t place, bool big) {
   const auto above = number_at(bytes, place, 4, big);
@@ -104,11 +38,12 @@ double tiff_ratio(std::string_view bytes, std::size_t place, bool big) {
 /// One directory of a TIFF, which describes one picture.
 struct TiffDirectory {
   ImageHeader header;
-  bool is_page = true;   ///< not a small version or a mask of another
+  bool is_page = true;  ///< not a small version or a mask of another
+  int orientation = 1;
   std::size_t next = 0;  ///< place of the next directory, 0: none
 };
 
-/// Tags: 254 kind (bit 0 small version, bit 2 mask), 256 width, 257 height, 258 bits, 277 samples, 282 dots across a unit, 296 the unit (2 inch, 3 cm).
+/// Tags: 254 kind (bit 0 small version, bit 2 mask), 256 width, 257 height, 258 bits, 274 orientation, 277 samples, 282 dots across a unit, 296 the unit (2 inch, 3 cm).
 std::optional<TiffDirectory> tiff_directory(std::string_view bytes, std::size_t place, bool big) {
   const auto entries = number_at(bytes, place, 2, big);
   if (!entries) return std::nullopt;
@@ -130,6 +65,7 @@ std::optional<TiffDirectory> tiff_directory(std::string_view bytes, std::size_t 
       const auto there = number_at(bytes, entry + 8, 4, big);
       header.bits = there ? number_at(bytes, *there, 2, big).value_or(0) : 0;
     }
+    if (*tag == 274) directory.orientation = static_cast<int>(std::min<std::size_t>(*value, 9));
     if (*tag == 277) header.samples = *value;
     if (*tag == 282) header.dots_per_inch = tiff_ratio(bytes, *value, big);
     if (*tag == 296) to_inch = *value == 3 ? kCentimetresAnInch : *value == 2 ? 1.0 : 0.0;
@@ -139,12 +75,101 @@ std::optional<TiffDirectory> tiff_directory(std::string_view bytes, std::size_t 
   return directory;
 }
 
+/// The first directory of a file or part that begins as a TIFF, as the Exif of other pictures does.
+std::optional<TiffDirectory> first_directory(std::string_view bytes) {
+  const bool big = bytes.starts_with('M');
+  const auto place = number_at(bytes, 4, 4, big);
+  return place ? tiff_directory(bytes, *place, big) : std::nullopt;
+}
+
+/// What the first chunk of a kind holds; empty: there is none.
+std::string_view png_chunk(std::string_view bytes, std::string_view kind) {
+  std::size_t place = kPngStart.size();
+  while (const auto length = number_at(bytes, place, 4, true)) {
+    if (*length > bytes.size() || place + 8 > bytes.size()) break;
+    if (bytes.substr(place + 4, 4) == kind) return bytes.substr(place + 8, *length);
+    place += 12 + *length;
+  }
+  return {};
+}
+
+/// From the pHYs chunk: dots a metre.
+double png_resolution(std::string_view bytes) {
+  const std::string_view chunk = png_chunk(bytes, "pHYs");
+  const auto across = number_at(chunk, 0, 4, true);
+  const auto unit = number_at(chunk, 8, 1, true);
+  return across && unit == 1U ? static_cast<double>(*across) * kCentimetresAnInch / 100.0 : 0.0;
+}
+
+std::optional<ImageHeader> png_header(std::string_view bytes) {
+  const auto width = number_at(bytes, 16, 4, true);
+  const auto height = number_at(bytes, 20, 4, true);
+  if (!width || !height) return std::nullopt;
+  ImageHeader header{*width, *height, png_resolution(bytes)};
+  const auto exif = first_directory(png_chunk(bytes, "eXIf"));
+  if (exif) header.orientation = exif->orientation;
+  return header;
+}
+
+/// From the JFIF segment, which comes first where there is one: its unit (1 inch, 2 cm) and dots across.
+double jpeg_resolution(std::string_view bytes) {
+  if (bytes.substr(6, 5) != std::string_view("JFIF\0", 5)) return 0.0;
+  const auto unit = number_at(bytes, 13, 1, true);
+  const auto across = number_at(bytes, 14, 2, true);
+  if (!unit || !across || *unit == 0 || *unit > 2) return 0.0;
+  return static_cast<double>(*across) * (*unit == 2 ? kCentimetresAnInch : 1.0);
+}
+
+/// The resolution that an Exif segment (APP1) tells, which cameras and scanners write in the place of JFIF.
+double exif_resolution(std::string_view segment) {
+  constexpr std::string_view kStart("Exif\0\0", 6);
+  if (!segment.starts_with(kStart)) return 0.0;
+  const auto directory = first_directory(segment.substr(kStart.size()));
+  return directory ? directory->header.dots_per_inch : 0.0;
+}
+
+/// Walks over the segments to the start of frame (SOF0 to SOF15 but DHT, JPG, DAC).
+std::optional<ImageHeader> jpeg_header(std::string_view bytes) {
+  std::size_t place = 2;
+  double resolution = jpeg_resolution(bytes);
+  while (const auto marker = number_at(bytes, place, 2, true)) {
+    const auto length = number_at(bytes, place + 2, 2, true);
+    if (*marker < 0xFF00 || !length) return std::nullopt;
+    if (*marker == 0xFFE1 && resolution == 0.0)
+      resolution = exif_resolution(bytes.substr(std::min(place + 4, bytes.size())));
+    const bool frame =
+        *marker >= 0xFFC0 && *marker <= 0xFFCF && *marker != 0xFFC4 && *marker != 0xFFC8 && *marker != 0xFFCC;
+    if (frame) {
+      const auto height = number_at(bytes, place + 5, 2, true);
+      const auto width = number_at(bytes, place + 7, 2, true);
+      if (!width || !height) return std::nullopt;
+      return ImageHeader{*width, *height, resolution};
+    }
+    place += 2 + std::max<std::size_t>(*length, 2);
+  }
+  return std::nullopt;
+}
+
+/// Whether a JPEG ends with the marker of its end.  libjpeg paints grey what is missing, which looks like a piece.
+bool jpeg_is_whole(std::string_view bytes) {
+  std::size_t place = 2;
+  while (const auto marker = number_at(bytes, place, 2, true)) {
+    if (*marker == 0xFFDA) return bytes.find("\xFF\xD9", place) != std::string_view::npos;
+    if (*marker <= 0xFF00 || *marker == 0xFFFF) {  // bytes that libjpeg passes over
+      ++place;
+      continue;
+    }
+    // Over whole segments: a camera's small picture inside one has pixels and an end of its own.
+    place += 2 + std::max<std::size_t>(number_at(bytes, place + 2, 2, true).value_or(2), 2);
+  }
+  return false;
+}
+
 /// Of the first directory, with the number of pages of all.
 std::optional<ImageHeader> tiff_header(std::string_view bytes) {
   constexpr std::size_t kMostPages = 1000;  // a broken file may lead in a circle
   const bool big = bytes[0] == 'M';
-  const auto place = number_at(bytes, 4, 4, big);
-  const auto first = place ? tiff_directory(bytes, *place, big) : std::nullopt;
+  const auto first = first_directory(bytes);
   if (!first || first->header.width == 0 || first->header.height == 0) return std::nullopt;
   ImageHeader header = first->header;
   for (auto page = first; page && page->next != 0 && header.pages < kMostPages;) {
@@ -176,6 +201,19 @@ class SilentErrors {
  private:
   std::streambuf* before_;
 };
+
+/// A picture turned as its orientation says: 1 is upright, 2 mirrored from left to right, 5 mirrored along its diagonal from
+/// the upper left, 8 to be turned to the left by a quarter ...
+cv::Mat upright(cv::Mat image, int orientation) {
+  constexpr int kDown = 0;  // as cv::flip() calls them
+  constexpr int kAcross = 1;
+  constexpr int kBoth = -1;
+  if (orientation >= 5 && orientation <= 8) cv::transpose(image, image);
+  if (orientation == 2 || orientation == 6) cv::flip(image, image, kAcross);
+  if (orientation == 3 || orientation == 7) cv::flip(image, image, kBoth);
+  if (orientation == 4 || orientation == 8) cv::flip(image, image, kDown);
+  return image;
+}
 
 /// Grey, colour, with and without alpha, 8 or 16 bits -> floats 0..1.
 cv::Mat unify(const cv::Mat& image, const std::string& path) {
@@ -241,7 +279,7 @@ cv::Mat load_image(const std::string& path, std::size_t max_pixels, std::vector<
   try {
     const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
     const SilentErrors silent;
-    // Unchanged keeps transparency, which a JPEG has none of, but does not turn it upright.
+    // Unchanged keeps transparency, which a JPEG has none of, but does not turn it upright, nor a PNG.
     image = cv::imdecode(buffer,
                          is_jpeg(bytes) ? cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH : cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception& problem) {
@@ -249,7 +287,7 @@ cv::Mat load_image(const std::string& path, std::size_t max_pixels, std::vector<
   }
   if (image.empty())
     throw InputError(path, "cannot be decoded; it may be cut short", "save the picture again");
-  return unify(image, path);
+  return unify(upright(image, header->orientation), path);
 }
 
 }  // namespace rejoin::outline::detail

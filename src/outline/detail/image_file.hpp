@@ -19,6 +19,7 @@ struct ImageHeader {
   std::size_t bits = 8;        ///< a channel; told of a TIFF
   std::size_t samples = 1;     ///< a pixel; told of a TIFF
   std::size_t pages = 1;
+  int orientation = 1;  ///< as Exif has it; told of a PNG: decoders turn the others
 };
 
 /// Whether a file's name ends as those of pictures that are read do.
@@ -27,8 +28,8 @@ bool has_picture_name(const std::filesystem::path& path);
 /// Size from the header of a PNG, JPEG or TIFF; nullopt if it is none or its header is broken.
 std::optional<ImageHeader> image_header(std::string_view bytes);
 
-/// Decodes a PNG, JPEG or TIFF to floats 0..1 with 3 channels (blue, green, red) or 4 (and alpha), upright as the orientation
-/// of a JPEG or TIFF says; of several pages the first.
+/// Decodes a PNG, JPEG or TIFF to floats 0..1 with 3 channels (blue, green, red) or 4 (and alpha), upright as their
+/// orientation says; of several pages the first.
 /// \param max_pixels  refused above   \param notes  gets what is not read of the file
 /// \throws IoError   the file cannot be read
 /// \throws InputError it is no such picture, is larger, or is damaged
