@@ -64,7 +64,7 @@ class OutlineCalibrateCommand final : public Command {
       return kInterrupted;
     }
     require_calibrated(levels, path);
-    if (json_) write_file(*json_, calibration_json(levels));
+    if (json_) write_file(*json_, calibration_json(levels, outline::told_resolution(set.pieces)));
     console.result(table(levels));
     if (json_) console.result(fmt::format("wrote {}\n", *json_));
     return finished_with(set, console);

@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/version.hpp"
 #include "outline/join_fit.hpp"
+#include "outline/read.hpp"
 
 namespace rejoin::cli {
 namespace {
@@ -20,12 +21,17 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr const char* kSchema = "rejoin.outline-calibration/1";
+constexpr const char* kResolution = "dots_per_inch";
+constexpr const char* kRecalibrate = "calibrate with pieces of their resolution and unit";
+constexpr const char* kMend = "give the JSON of rejoin outline calibrate";
 /// Of xi, zeta and n_min; calibrate() finds 24 at most.
 constexpr double kMostOfALevel = 1000.0;
 /// With steps that are this many times those of the pieces, or this part of them, joins begin to be lost;
 constexpr double kDoubtedStep = 2.0;
 /// and with these a border has no sample left, or takes all memory.
 constexpr double kImpossibleStep = 100.0;
+/// Dots an inch that are so many times others are told.
+constexpr double kOtherResolution = 1.1;
 
 ordered_json parse_file(const std::string& path, const char* mend) {
   ordered_json json = ordered_json::parse(read_json_text(path, mend), nullptr, false);
@@ -97,6 +103,19 @@ std::map<std::string, Placed> placed_pieces(const std::string& path, const order
   return placed;
 }
 
+/// nullopt: the calibration's pieces had the resolution of these, or one of the two is not known
+std::optional<std::string> doubt_resolution(const std::string& path,
+                                            const std::vector<outline::Piece>& pieces) {
+  const ordered_json json = parse_file(path, kMend);
+  const auto told = json.find(kResolution);
+  if (told == json.end() || !told->is_number()) return std::nullopt;
+  const double before = told->get<double>();
+  const double now = outline::told_resolution(pieces).value_or(before);
+  if (before <= kOtherResolution * now && now <= kOtherResolution * before) return std::nullopt;
+  return fmt::format("{}: was made from files of {:.5g} dots an inch, and these have {:.5g}; {}", path,
+                     before, now, kRecalibrate);
+}
+
 }  // namespace
 
 std::vector<outline::KnownJoin> read_known_joins(const std::string& path,
@@ -120,7 +139,8 @@ std::vector<outline::KnownJoin> read_known_joins(const std::string& path,
   return joins;
 }
 
-std::string calibration_json(const std::vector<outline::CalibratedLevel>& levels) {
+std::string calibration_json(const std::vector<outline::CalibratedLevel>& levels,
+                             std::optional<double> resolution) {
   ordered_json list = ordered_json::array();
   for (const outline::CalibratedLevel& l : levels) {
     list.push_back({{"step", l.step},
@@ -131,23 +151,25 @@ std::string calibration_json(const std::vector<outline::CalibratedLevel>& levels
                     {"true_candidates", l.true_candidates},
                     {"false_candidates", l.false_candidates}});
   }
-  return text_of({{"schema", kSchema}, {"levels", list}, {"version", kVersion}});
+  ordered_json json = {{"schema", kSchema}, {"levels", list}};
+  if (resolution) json[kResolution] = *resolution;
+  json["version"] = kVersion;
+  return text_of(json);
 }
 
 void read_calibration(const std::string& path, outline::MultiscaleOptions& options) {
-  const char* mend = "give the JSON of rejoin outline calibrate";
-  const ordered_json json = parse_file(path, mend);
+  const ordered_json json = parse_file(path, kMend);
   if (json.value("schema", ordered_json()) != kSchema || !json.contains("levels") ||
       !json["levels"].is_array() || json["levels"].empty())
-    throw InputError(path, "is no calibration", mend);
+    throw InputError(path, "is no calibration", kMend);
   options.levels.clear();
   for (const ordered_json& level : json["levels"]) {
     for (const char* key : {"step", "xi", "zeta", "n_min"}) {
       if (!level.is_object() || !level.contains(key) || !level[key].is_number() ||
           !(level[key].get<double>() >= 0.0))
-        throw InputError(path, std::string("a level has no \"") + key + "\"", mend);
+        throw InputError(path, std::string("a level has no \"") + key + "\"", kMend);
       if (std::string_view(key) != "step" && level[key].get<double>() > kMostOfALevel)
-        throw InputError(path, fmt::format("a level's \"{}\" is above {}", key, kMostOfALevel), mend);
+        throw InputError(path, fmt::format("a level's \"{}\" is above {}", key, kMostOfALevel), kMend);
     }
     if (options.levels.empty()) options.step = level["step"].get<double>();
     options.levels.push_back(
@@ -161,13 +183,12 @@ std::optional<std::string> doubt_calibration(const std::string& path,
   if (options.step == 0.0) return std::nullopt;
   const double usual = outline::automatic_step(pieces);
   const double ratio = std::max(options.step / usual, usual / options.step);
-  if (ratio <= kDoubtedStep) return std::nullopt;
+  if (ratio <= kDoubtedStep) return doubt_resolution(path, pieces);
   const std::string problem =
       fmt::format("its finest step of {:.4g} is {:.3g} times as {} as that of these pieces, {:.4g}",
                   options.step, ratio, options.step > usual ? "coarse" : "fine", usual);
-  const char* mend = "calibrate with pieces of their resolution and unit";
-  if (ratio > kImpossibleStep) throw InputError(path, problem, mend);
-  return InputError(path, problem, mend).what();
+  if (ratio > kImpossibleStep) throw InputError(path, problem, kRecalibrate);
+  return InputError(path, problem, kRecalibrate).what();
 }
 
 }  // namespace rejoin::cli

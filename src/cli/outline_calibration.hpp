@@ -19,7 +19,9 @@ std::vector<outline::KnownJoin> read_known_joins(const std::string& path,
                                                  const std::vector<outline::Piece>& pieces);
 
 /// Schema "rejoin.outline-calibration/1".
-std::string calibration_json(const std::vector<outline::CalibratedLevel>& levels);
+/// \param resolution  outline::told_resolution() of the pieces
+std::string calibration_json(const std::vector<outline::CalibratedLevel>& levels,
+                             std::optional<double> resolution);
 
 /// Sets step and levels from a file that calibration_json() made.
 /// \throws IoError   it cannot be read
@@ -27,7 +29,7 @@ std::string calibration_json(const std::vector<outline::CalibratedLevel>& levels
 void read_calibration(const std::string& path, outline::MultiscaleOptions& options);
 
 /// What to say of a calibration that was made with pieces of another resolution or unit: its steps are more than twice, or less
-/// than half of, what these pieces would have.
+/// than half of, what these pieces would have, or the files of both tell dots an inch that differ by more than a tenth.
 /// \throws InputError 100 times as much, or less
 std::optional<std::string> doubt_calibration(const std::string& path,
                                              const outline::MultiscaleOptions& options,

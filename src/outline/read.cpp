@@ -198,22 +198,44 @@ std::optional<double> units_an_inch(const fs::path& file) {
   return header->dots_per_inch;
 }
 
-std::optional<std::string> doubt_resolutions(const std::vector<std::string>& files) {
-  constexpr double kSame = 1.02;
-  std::optional<std::pair<double, std::string>> least;
-  std::optional<std::pair<double, std::string>> most;
+/// What a file tells, with its name.
+using Told = std::pair<double, std::string>;
+
+/// The least and the most of what files tell; nullopt: none tells any.
+std::optional<std::pair<Told, Told>> told_by(const std::vector<std::string>& files) {
+  std::optional<std::pair<Told, Told>> range;
   for (const fs::path file : files) {
     const auto units = units_an_inch(file);
     if (!units) continue;
-    const std::pair told(*units, file.filename().string());
-    if (!least || told.first < least->first) least = told;
-    if (!most || told.first > most->first) most = told;
+    const Told told(*units, file.filename().string());
+    if (!range) range.emplace(told, told);
+    if (told.first < range->first.first) range->first = told;
+    if (told.first > range->second.first) range->second = told;
   }
-  if (!least || most->first < kSame * least->first) return std::nullopt;
+  return range;
+}
+
+bool agree(const Told& least, const Told& most) {
+  constexpr double kSame = 1.02;
+  return most.first < kSame * least.first;
+}
+
+std::optional<double> told_resolution(const std::vector<Piece>& pieces) {
+  std::vector<std::string> files;
+  for (const Piece& piece : pieces)
+    if (files.empty() || files.back() != piece.path) files.push_back(piece.path);
+  const auto range = told_by(files);
+  return range && agree(range->first, range->second) ? std::optional(range->first.first) : std::nullopt;
+}
+
+std::optional<std::string> doubt_resolutions(const std::vector<std::string>& files) {
+  const auto range = told_by(files);
+  if (!range || agree(range->first, range->second)) return std::nullopt;
+  const auto& [least, most] = *range;
   return fmt::format(
       "{} says that it has {:.5g} dots or units an inch, {} {:.5g}: pieces fit only at one resolution, so "
       "scale the files to one if that is so",
-      most->second, most->first, least->second, least->first);
+      most.second, most.first, least.second, least.first);
 }
 
 std::optional<std::string> doubt_axes(const std::vector<Piece>& pieces) {

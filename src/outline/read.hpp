@@ -50,6 +50,9 @@ PieceSet read_folder(const std::string& folder, const ExtractOptions& options = 
 /// nullopt: all have it the same way.  read_folder() has it in its notes.
 std::optional<std::string> doubt_axes(const std::vector<Piece>& pieces);
 
+/// Dots or units an inch that the pieces' files tell, if they agree; what is told is as for doubt_resolutions().
+std::optional<double> told_resolution(const std::vector<Piece>& pieces);
+
 /// What to say of pictures and drawings whose files tell different resolutions or units; up to 96 dots an inch, which programs
 /// write where they know none, are passed over.  read_folder() has it in its notes.
 std::optional<std::string> doubt_resolutions(const std::vector<std::string>& files);

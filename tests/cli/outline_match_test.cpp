@@ -230,6 +230,41 @@ TEST(OutlineMatch, ACalibrationOfAnotherResolutionIsToldAndOneThatCannotFitIsRef
   expect_refusal(command, "a level's \"xi\" is above 1000");
 }
 
+TEST(OutlineCalibrate, KeepsTheResolutionThatThePicturesTell) {
+  const TemporaryFolder folder;
+  const std::string made = folder / "made";
+  ASSERT_EQ(run({"outline", "shatter", made, "--shapes", "2", "--pieces", "6", "--resolution", "25", "--seed",
+                 "5", "--format", "png"})
+                .exit_code,
+            0);
+  const std::string pieces = folder / "pieces";
+  std::filesystem::create_directory(pieces);
+  json truth = {{"joins", json::array()}};
+  const json of_pngs = json::parse(read_file(made + "/truth.json"));
+  const auto renamed = [](const std::string& name) { return name.substr(0, name.size() - 4) + ".tif"; };
+  for (const auto& [name, fragment] : of_pngs["fragments"].items())
+    truth["fragments"][renamed(name)] = fragment;
+  for (const json& join : of_pngs["joins"]) truth["joins"].push_back({renamed(join[0]), renamed(join[1])});
+  write_file(pieces + "/truth.json", truth.dump());
+  const auto scan_with = [&](int dots) {
+    for (const auto& [name, fragment] : of_pngs["fragments"].items())
+      cv::imwrite(pieces + "/" + renamed(name), cv::imread(made + "/" + name, cv::IMREAD_UNCHANGED),
+                  {cv::IMWRITE_TIFF_RESUNIT, 2, cv::IMWRITE_TIFF_XDPI, dots, cv::IMWRITE_TIFF_YDPI, dots});
+  };
+  scan_with(600);
+  const std::string numbers = folder / "numbers.json";
+  ASSERT_EQ(run({"outline", "calibrate", pieces, "--json", numbers}).exit_code, 0);
+  EXPECT_EQ(json::parse(read_file(numbers))["dots_per_inch"], 600.0);
+  const std::vector<std::string> command = {
+      "outline", "match", pieces + "/piece_000.tif", pieces + "/piece_001.tif", "--calibration", numbers};
+  EXPECT_EQ(run(command).err, "");
+  scan_with(300);
+  const Finished told = run(command);
+  EXPECT_EQ(told.exit_code, 0);
+  EXPECT_NE(told.err.find("was made from files of 600 dots an inch, and these have 300"), std::string::npos)
+      << told.err;
+}
+
 TEST(OutlineMatch, APictureWithoutAPieceIsRefused) {
   const TemporaryFolder folder;
   const std::string blank = picture(folder, "blank.png", [](cv::Mat&) {});
