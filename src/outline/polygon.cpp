@@ -143,6 +143,26 @@ bool contains(const Polygon& polygon, const glm::dvec2& point) {
   return inside;
 }
 
+glm::dvec2 inner_point(const Polygon& polygon) {
+  const auto [lowest, highest] = std::ranges::minmax(polygon, {}, [](const glm::dvec2& p) { return p.y; });
+  const double y = 0.5 * (lowest.y + highest.y);
+  std::vector<double> crossings;
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+    const glm::dvec2& a = polygon[i];
+    const glm::dvec2& b = polygon[j];
+    if ((a.y > y) != (b.y > y)) crossings.push_back((b.x - a.x) * (y - a.y) / (b.y - a.y) + a.x);
+  }
+  std::ranges::sort(crossings);
+  glm::dvec2 widest = polygon[0];
+  double width = 0.0;
+  for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
+    if (crossings[i + 1] - crossings[i] <= width) continue;
+    width = crossings[i + 1] - crossings[i];
+    widest = {0.5 * (crossings[i] + crossings[i + 1]), y};
+  }
+  return widest;
+}
+
 std::optional<glm::dvec2> meeting(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c,
                                   const glm::dvec2& d) {
   const glm::dvec2 ab = b - a;

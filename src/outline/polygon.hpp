@@ -16,6 +16,10 @@ void require_usual_points(const std::vector<glm::dvec2>& polygon, const std::str
 /// Whether a point lies inside a closed polygon (even-odd rule; either answer on the border itself).
 bool contains(const std::vector<glm::dvec2>& polygon, const glm::dvec2& point);
 
+/// A point inside a closed polygon: the middle of the widest part of the level line half way up that is inside; the first corner if
+/// there is none.
+glm::dvec2 inner_point(const std::vector<glm::dvec2>& polygon);
+
 /// Shares (0..1) of the way from a to b and from c to d at which the two segments meet; nullopt: nowhere, or they are
 /// parallel.
 std::optional<glm::dvec2> meeting(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c,

@@ -38,15 +38,29 @@ std::string read_text(const std::string& path) {
   return text;
 }
 
+/// \throws InputError much of a hole lies outside the border
+void require_inside(const std::vector<glm::dvec2>& border, const std::vector<glm::dvec2>& hole,
+                    const std::string& subject) {
+  constexpr std::size_t kPlaces = 64;
+  constexpr std::size_t kMostOutside = 3;  // a hole may touch the border
+  std::size_t outside = 0;
+  for (std::size_t i = 0; i < kPlaces; ++i)
+    if (!contains(border, hole[i * hole.size() / kPlaces])) ++outside;
+  if (outside > kMostOutside)
+    throw InputError(subject, "lies outside the border, or across it", "draw it inside the border");
+}
+
 /// The outline of a polygon with its holes; a hole that is none is left out with a note.
 Outline outline_of(detail::Rings& rings, const std::string& subject, std::vector<std::string>& notes) {
   Outline outline;
   outline.points = mend_polygon(std::move(rings.rings[0]), subject, notes);
   for (std::size_t h = 1; h < rings.rings.size(); ++h) {
+    const std::string name = fmt::format("{}, hole {}", subject, h);
     try {
-      outline.holes.push_back(
-          mend_polygon(std::move(rings.rings[h]), fmt::format("{}, hole {}", subject, h), notes));
-      std::reverse(outline.holes.back().begin(), outline.holes.back().end());
+      std::vector<glm::dvec2> hole = mend_polygon(std::move(rings.rings[h]), name, notes);
+      require_inside(outline.points, hole, name);
+      std::reverse(hole.begin(), hole.end());
+      outline.holes.push_back(std::move(hole));
     } catch (const InputError& error) {
       notes.push_back(fmt::format("{} (left out)", error.what()));
     }

@@ -78,5 +78,11 @@ TEST(Polygon, ClockwiseBorderIsTurnedAround) {
   EXPECT_DOUBLE_EQ(signed_area(mended), 1.0);
 }
 
+TEST(Polygon, InnerPointLiesInsideThoughTheMiddleDoesNot) {
+  const std::vector<glm::dvec2> bow{{0, 0}, {10, 0}, {10, 6}, {7, 6}, {7, 2}, {2, 2}, {2, 6}, {0, 6}};
+  EXPECT_EQ(inner_point(bow), glm::dvec2(8.5, 3.0));
+  EXPECT_TRUE(contains(bow, inner_point(bow)));
+}
+
 }  // namespace
 }  // namespace rejoin::outline

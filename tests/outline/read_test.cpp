@@ -217,6 +217,47 @@ TEST_F(Read, SvgStyleSheetsHideAndMove) {
   EXPECT_EQ(boxes(".hidden * { fill: red } .a { display: none }", "<g class='a'>" + shape + "</g>"), other);
 }
 
+TEST_F(Read, SvgShapesThatShareABorderLieSideBySide) {
+  // The second begins on the border that it has in common with the first.
+  const PieceSet set = read_pieces(
+      write("a.svg", "<svg><path d='M0 0H10V10H0z'/><polygon points='0,5 0,10 -8,10 -8,0 0,0'/></svg>"));
+  EXPECT_EQ(boxes_of(set), (std::vector<std::string>{"0,0,10,10", "-8,0,8,10"}));
+  EXPECT_TRUE(set.pieces[0].outline.holes.empty());
+}
+
+TEST_F(Read, SvgHoleAndTheShapeThatFillsItAreBothRead) {
+  const std::string holed = "<path d='M0 0H100V100H0z M40 40V60H60V40z'/>";
+  for (const char* filling : {"40,40 40,60 60,60 60,40", "60,40 60,60 40,60 40,40"}) {
+    const std::string plug = fmt::format("<polygon points='{}'/>", filling);
+    for (const std::string& content : {holed + plug, plug + holed, holed + plug + holed + plug}) {
+      const PieceSet set = read_pieces(write("a.svg", "<svg>" + content + "</svg>"));
+      ASSERT_EQ(boxes_of(set), (std::vector<std::string>{"0,0,100,100", "40,40,20,20"})) << content;
+      ASSERT_EQ(set.pieces[0].outline.holes.size(), 1U);
+      EXPECT_DOUBLE_EQ(signed_area(set.pieces[0].outline.holes[0]), -400.0);
+    }
+  }
+}
+
+TEST_F(Read, SvgShapesTakenForHolesOfOthersAreTold) {
+  const std::string notes = "<rect width='9' height='9'/><rect x='2' y='2' width='4' height='4'/>";
+  const PieceSet set = read_pieces(write("a.svg", "<svg>" + notes + "</svg>"));
+  ASSERT_EQ(set.pieces.size(), 1U);
+  EXPECT_EQ(set.pieces[0].outline.holes.size(), 1U);
+  ASSERT_EQ(set.notes.size(), 1U);
+  EXPECT_NE(set.notes[0].find("1 shape drawn inside another is taken for a hole in it"), std::string::npos);
+}
+
+TEST_F(Read, HolesAcrossTheBorderAreToldAndLeftOut) {
+  const PieceSet set = read_pieces(
+      write("a.geojson",
+            R"({"type":"Polygon","coordinates":[[[0,0],[10,0],[10,10],[0,10]],[[5,5],[15,5],[15,8],[5,8]],
+                                                [[1,1],[2,1],[2,2],[1,2]]]})"));
+  EXPECT_EQ(set.pieces[0].outline.holes.size(), 1U);
+  ASSERT_EQ(set.notes.size(), 1U);
+  EXPECT_NE(set.notes[0].find("hole 1: lies outside the border, or across it"), std::string::npos)
+      << set.notes[0];
+}
+
 TEST_F(Read, SvgTellsWhatItDoesNotRead) {
   const std::string shape = "<polygon points='0,0 5,0 5,5 0,5'/>";
   const auto note = [&](const std::string& content) {

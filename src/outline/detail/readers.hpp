@@ -41,7 +41,4 @@ inline std::string_view trimmed(std::string_view text, std::string_view away) {
   return text.substr(begin, text.find_last_not_of(away) + 1 - begin);
 }
 
-/// Sorts closed polygons into pieces with holes: a polygon inside an odd number of others is a hole of the smallest of them.
-std::vector<Rings> nest(const std::vector<std::vector<glm::dvec2>>& polygons);
-
 }  // namespace rejoin::outline::detail

@@ -75,6 +75,48 @@ bool covers(const Polygon& polygon, const ViewBox& page) {
          std::abs(signed_area(polygon)) > (1.0 - kPageEdge) * (high.x - low.x) * (high.y - low.y);
 }
 
+/// A closed polygon of the drawing.
+struct Shape {
+  Polygon polygon;
+  std::size_t element = 0;  ///< that draws it, perhaps with others
+  bool hole = false;        ///< in what its element draws
+};
+
+/// Sorts shapes into pieces with holes: a shape inside an odd number of others is a hole of the smallest of them.  Shapes lie side
+/// by side if they have a stretch of border in common, and a hole and what fills it are one in the other.
+/// \param separate  gets the number of holes that an element of their own draws
+std::vector<Rings> nest(const std::vector<Shape>& shapes, std::size_t& separate) {
+  std::vector<std::size_t> order(shapes.size());
+  std::vector<double> areas;
+  std::vector<glm::dvec2> inside;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    order[i] = i;
+    areas.push_back(std::abs(signed_area(shapes[i].polygon)));
+    inside.push_back(inner_point(shapes[i].polygon));
+  }
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return areas[a] > areas[b]; });
+  std::vector<Rings> pieces;
+  std::vector<std::size_t> piece_of(shapes.size(), 0);
+  std::vector<std::size_t> depth(shapes.size(), 0);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const std::size_t own = order[k];
+    std::size_t parent = own;
+    for (std::size_t other = 0; other < k; ++other) {  // the last one around it is the smallest
+      if (contains(shapes[order[other]].polygon, inside[own])) parent = order[other];
+    }
+    const bool hole = parent != own && depth[parent] % 2 == 0;
+    depth[own] = parent == own ? 0 : depth[parent] + 1;
+    piece_of[own] = hole ? piece_of[parent] : pieces.size();
+    if (hole && shapes[own].element != shapes[parent].element) ++separate;
+    if (hole) {
+      pieces[piece_of[parent]].rings.push_back(shapes[own].polygon);
+    } else {
+      pieces.push_back({{shapes[own].polygon}, fmt::format("shape {}", own + 1)});
+    }
+  }
+  return pieces;
+}
+
 class Reader {
  public:
   Reader(const std::string& path, std::vector<std::string>& notes) : path_(path), notes_(notes) {}
@@ -92,13 +134,22 @@ class Reader {
     if (hidden_ > 0) note(fmt::format("{} left out as hidden", counted(hidden_, "shape")));
     if (repeated_ > 0) note(fmt::format("{} drawn twice; each counts once", counted(repeated_, "shape")));
     for (const std::string& what : unread_) note(what);
-    if (!polygons.empty()) return;
+    if (!shapes_.empty()) return;
     throw InputError(path_,
                      hidden_ > 0 ? "holds no closed shape that is not hidden" : "holds no closed shape",
                      unread_.empty() ? kSvgMend : *unread_.begin());
   }
 
-  std::vector<Polygon> polygons;
+  /// The pieces with their holes.
+  std::vector<Rings> pieces() {
+    std::size_t separate = 0;
+    std::vector<Rings> result = nest(shapes_, separate);
+    if (separate > 0) {
+      note(fmt::format("{} drawn inside another {} taken for {} in it", counted(separate, "shape"),
+                       separate == 1 ? "is" : "are", separate == 1 ? "a hole" : "holes"));
+    }
+    return result;
+  }
 
  private:
   void note(const std::string& what) { notes_.push_back(path_ + ": " + what); }
@@ -116,7 +167,7 @@ class Reader {
     enter(node, scope);
     if (name == "symbol" || (name == "svg" && depth > 0)) enter_drawing(node, use, scope);
     if (name == "use") return draw_copy(node, scope, depth);
-    for (Polygon& polygon : polygons_of(node, scope.size, path_)) add(std::move(polygon), scope);
+    add(polygons_of(node, scope.size, path_), scope);
     for (const pugi::xml_node& child : node.children()) read(child, scope, depth + 1);
   }
 
@@ -190,33 +241,54 @@ class Reader {
       unread_.insert("preserveAspectRatio is not read; the inner drawing is fitted into the middle");
   }
 
-  void add(Polygon polygon, const Scope& scope) {
-    if (polygon.size() < 3) return;
+  /// \param polygons  of one element
+  void add(std::vector<Polygon> polygons, const Scope& scope) {
+    std::erase_if(polygons, [](const Polygon& polygon) { return polygon.size() < 3; });
+    if (polygons.empty()) return;
+    ++elements_;
+    std::vector<char> hole(polygons.size(), 0);
+    for (std::size_t i = 0; i < polygons.size() && polygons.size() > 1; ++i) {
+      const glm::dvec2 inside = inner_point(polygons[i]);
+      const auto around = std::ranges::count_if(
+          polygons, [&](const Polygon& other) { return &other != &polygons[i] && contains(other, inside); });
+      hole[i] = around % 2 == 1 ? 1 : 0;
+    }
+    for (std::size_t i = 0; i < polygons.size(); ++i)
+      add({std::move(polygons[i]), elements_, hole[i] != 0}, scope);
+  }
+
+  void add(Shape shape, const Scope& scope) {
     if (!scope.displayed || !scope.visible) {
       ++hidden_;
       return;
     }
-    for (glm::dvec2& p : polygon) p = glm::dvec2(scope.to_page * glm::dvec3(p, 1.0));
-    require_usual_points(polygon, fmt::format("{}, shape {}", path_, polygons.size() + 1));
-    if (std::ranges::any_of(polygons, [&](const Polygon& other) { return same_polygon(polygon, other); })) {
+    for (glm::dvec2& p : shape.polygon) p = glm::dvec2(scope.to_page * glm::dvec3(p, 1.0));
+    require_usual_points(shape.polygon, fmt::format("{}, shape {}", path_, shapes_.size() + 1));
+    // The hole of one shape may be another.
+    const auto same = [&](const Shape& other) {
+      return shape.hole == other.hole && same_polygon(shape.polygon, other.polygon);
+    };
+    if (std::ranges::any_of(shapes_, same)) {
       ++repeated_;
       return;
     }
-    polygons.push_back(std::move(polygon));
+    shapes_.push_back(std::move(shape));
   }
 
   /// A rectangle as large as the page would have all pieces as holes.
   void leave_out_background() {
-    const auto first = std::stable_partition(polygons.begin(), polygons.end(),
-                                             [&](const Polygon& polygon) { return !covers(polygon, page_); });
-    if (first == polygons.end() || first == polygons.begin()) return;
-    polygons.erase(first, polygons.end());
+    const auto first = std::stable_partition(
+        shapes_.begin(), shapes_.end(), [&](const Shape& shape) { return !covers(shape.polygon, page_); });
+    if (first == shapes_.end() || first == shapes_.begin()) return;
+    shapes_.erase(first, shapes_.end());
     note("a rectangle that covers the page is taken for its background and left out");
   }
 
   const std::string& path_;
   std::vector<std::string>& notes_;
   ViewBox page_;
+  std::vector<Shape> shapes_;
+  std::size_t elements_ = 0;
   std::size_t hidden_ = 0;
   std::size_t repeated_ = 0;
   int copies_ = 0;
@@ -234,39 +306,12 @@ pugi::xml_node parse(pugi::xml_document& document, const std::string& path, cons
 
 }  // namespace
 
-std::vector<Rings> nest(const std::vector<Polygon>& polygons) {
-  std::vector<std::size_t> order(polygons.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::vector<double> areas(polygons.size());
-  for (std::size_t i = 0; i < order.size(); ++i) areas[i] = std::abs(signed_area(polygons[i]));
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return areas[a] > areas[b]; });
-  std::vector<Rings> pieces;
-  std::vector<std::size_t> piece_of(polygons.size(), 0);
-  std::vector<std::size_t> depth(polygons.size(), 0);
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    std::size_t parent = order[k];
-    for (std::size_t other = 0; other < k; ++other) {  // the last one around it is the smallest
-      if (contains(polygons[order[other]], polygons[order[k]][0])) parent = order[other];
-    }
-    const bool hole = parent != order[k] && depth[parent] % 2 == 0;
-    depth[order[k]] = parent == order[k] ? 0 : depth[parent] + 1;
-    piece_of[order[k]] = hole ? piece_of[parent] : pieces.size();
-    if (hole) {
-      pieces[piece_of[parent]].rings.push_back(polygons[order[k]]);
-    } else {
-      pieces.push_back({{polygons[order[k]]}, fmt::format("shape {}", order[k] + 1)});
-    }
-  }
-  return pieces;
-}
-
 std::vector<Rings> read_svg(const std::string& path, const std::string& text,
                             std::vector<std::string>& notes) {
   pugi::xml_document document;
   Reader reader(path, notes);
   reader.read(parse(document, path, text));
-  return nest(reader.polygons);
+  return reader.pieces();
 }
 
 double svg_units_an_inch(const std::string& path, const std::string& text) {
