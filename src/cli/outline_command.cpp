@@ -2,9 +2,14 @@
 
 #include <fmt/core.h>
 
+#include <filesystem>
+#include <regex>
+
 #include "cli/arguments.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/outline_calibration.hpp"
+#include "core/error.hpp"
+#include "core/words.hpp"
 #include "outline/emd.hpp"
 #include "outline/lcs.hpp"
 
@@ -93,13 +98,24 @@ std::unique_ptr<outline::Matcher> make_matcher(OutlineMethod method,
   return outline::make_multiscale(multiscale);
 }
 
-outline::Piece load_piece(const std::string& path, Console& console) {
-  outline::PieceSet set = read_file_or_end(path);
+PieceName piece_name(const std::string& given) {
+  static const std::regex kNumbered("(.+)#([1-9][0-9]{0,8})");
+  std::smatch parts;
+  std::error_code ignored;
+  if (std::filesystem::exists(given, ignored) || !std::regex_match(given, parts, kNumbered))
+    return {given, 1, false};
+  return {parts[1], std::stoul(parts[2]), true};
+}
+
+outline::Piece load_piece(const PieceName& name, Console& console) {
+  outline::PieceSet set = read_file_or_end(name.file);
   for (const std::string& note : set.notes) console.warning(note);
-  if (set.pieces.size() > 1) {
-    console.warning(fmt::format("{}: holds {} pieces; the largest is taken", path, set.pieces.size()));
-  }
-  return std::move(set.pieces.front());
+  const std::string has = "holds " + counted(set.pieces.size(), "piece");
+  if (name.number > set.pieces.size())
+    throw InputError(fmt::format("{}#{}", name.file, name.number), "the file " + has, "give a lower number");
+  if (set.pieces.size() > 1 && !name.numbered)
+    console.warning(fmt::format("{}: {}; the largest is taken, {}#2 is the next", name.file, has, name.file));
+  return std::move(set.pieces[name.number - 1]);
 }
 
 outline::PieceSet load_folder(const std::string& folder, Console& console) {

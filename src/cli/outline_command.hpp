@@ -45,8 +45,19 @@ const char* name_of(OutlineMethod method);
 std::unique_ptr<outline::Matcher> make_matcher(OutlineMethod method,
                                                const outline::MultiscaleOptions& multiscale = {});
 
-/// The largest piece of a file; tells of repairs and of further pieces.
-outline::Piece load_piece(const std::string& path, Console& console);
+/// A piece as results name it: "scan.jpg#2" is the second largest of scan.jpg.
+struct PieceName {
+  std::string file;
+  std::size_t number = 1;
+  bool numbered = false;
+};
+
+/// What the user means; a file that is called so is taken as such.
+PieceName piece_name(const std::string& given);
+
+/// A piece of a file, the largest if no number is given; tells of repairs, and then of further pieces.
+/// \throws InputError the file holds less pieces
+outline::Piece load_piece(const PieceName& name, Console& console);
 
 /// The pieces of a folder; tells of repairs, of files that cannot be used and of copies.
 outline::PieceSet load_folder(const std::string& folder, Console& console);

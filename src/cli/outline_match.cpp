@@ -58,7 +58,9 @@ outline::MultiscaleOptions thorough() {
 class OutlineMatchCommand final : public Command {
  public:
   void define(CLI::App& app) override {
-    app.add_option("A", path_a_, "piece: png, jpg, tif, csv, svg or geojson; or a scan, for its rim")
+    app.add_option(
+           "A", path_a_,
+           "piece: png, jpg, tif, csv, svg or geojson, FILE#2 the second in it; or a scan, for its rim")
         ->required()
         ->group("Input");
     app.add_option("B", path_b_, "piece that is moved")->required()->group("Input");
@@ -70,14 +72,16 @@ class OutlineMatchCommand final : public Command {
 
   ExitCode run(Console& console, Context& context) override {
     const auto begin = std::chrono::steady_clock::now();
-    require_two_files(path_a_, path_b_);
+    const PieceName a = piece_name(path_a_);
+    const PieceName b = piece_name(path_b_);
+    if (a.number == b.number) require_two_files(a.file, b.file);
     if (mesh::has_scan_name(path_a_) || mesh::has_scan_name(path_b_)) return run_rims(console, context);
     outline::MultiscaleOptions multiscale = thorough();
     apply_calibration(calibration_, method_, multiscale);
-    if (json_) require_writable_file(*json_);
-    if (out_) require_out();
-    const std::vector<outline::Piece> pieces{load_piece(path_a_, console), load_piece(path_b_, console)};
-    if (const auto doubt = outline::doubt_resolutions({path_a_, path_b_})) console.warning(*doubt);
+    if (json_) require_json(a.file, b.file);
+    if (out_) require_out(a.file, b.file);
+    const std::vector<outline::Piece> pieces{load_piece(a, console), load_piece(b, console)};
+    if (const auto doubt = outline::doubt_resolutions({a.file, b.file})) console.warning(*doubt);
     if (const auto doubt = outline::doubt_axes(pieces)) console.warning(*doubt);
     check_calibration(calibration_, multiscale, pieces, console);
     console.detail(fmt::format("read both pieces in {:.2f} s", seconds_since(begin)));
@@ -106,11 +110,17 @@ class OutlineMatchCommand final : public Command {
   }
 
  private:
-  void require_out() const {
+  void require_json(const std::string& a, const std::string& b) const {
+    require_apart("--json", *json_, a);
+    require_apart("--json", *json_, b);
+    require_writable_file(*json_);
+  }
+
+  void require_out(const std::string& a, const std::string& b) const {
     require_writable_folder(*out_);
     for (const std::filesystem::path& file : report::outline_match_pictures(*out_)) {
-      require_apart("--out", file, path_a_);
-      require_apart("--out", file, path_b_);
+      require_apart("--out", file, a);
+      require_apart("--out", file, b);
     }
   }
 

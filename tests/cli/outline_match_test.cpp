@@ -271,6 +271,32 @@ TEST(OutlineMatch, APictureWithoutAPieceIsRefused) {
   expect_refusal({"outline", "match", blank, good_picture(folder)}, "no piece stands out");
 }
 
+TEST(OutlineMatch, FurtherPiecesOfAPictureHaveNumbers) {
+  const TemporaryFolder folder;
+  const auto two = [](cv::Mat& image) {
+    cv::rectangle(image, cv::Rect(6, 6, 50, 20), cv::Scalar(0), cv::FILLED);
+    cv::rectangle(image, cv::Rect(8, 36, 18, 18), cv::Scalar(0), cv::FILLED);
+  };
+  const std::string scan = picture(folder, "scan.png", two);
+  const Finished largest = run({"outline", "match", scan, good_picture(folder)});
+  EXPECT_NE(largest.err.find("holds 2 pieces; the largest is taken, " + scan + "#2 is the next"),
+            std::string::npos)
+      << largest.err;
+  const std::string file = folder / "match.json";
+  const Finished numbered = run({"outline", "match", scan + "#2", scan + "#1", "--json", file});
+  EXPECT_EQ(numbered.exit_code, 0);
+  EXPECT_EQ(numbered.err, "");
+  const json match = json::parse(read_file(file));
+  EXPECT_EQ(match["a"]["name"], "scan.png#2");
+  EXPECT_NEAR(match["a"]["area"].get<double>(), 18.0 * 18.0, 20.0);
+  EXPECT_NEAR(match["b"]["area"].get<double>(), 50.0 * 20.0, 20.0);
+  expect_refusal({"outline", "match", scan + "#3", scan}, "holds 2 pieces");
+  EXPECT_NE(run({"outline", "match", scan + "#1", scan}).err.find("is the same file"), std::string::npos);
+  EXPECT_EQ(run({"outline", "match", scan + "#2", good_picture(folder), "--json", scan}).exit_code, 2);
+  std::filesystem::copy_file(good_picture(folder), folder / "good.png#2.png");
+  EXPECT_EQ(run({"outline", "match", folder / "good.png#2.png", scan}).exit_code, 0);
+}
+
 TEST(OutlineMatch, APieceThatRunsOutOfThePictureIsTold) {
   const TemporaryFolder folder;
   const std::string cut = picture(folder, "cut.png", [](cv::Mat& image) {
