@@ -154,6 +154,23 @@ TEST(Extract, UnevenLightIsEvenedOutWithANote) {
   EXPECT_NE(found.notes[0].find("evened out"), std::string::npos) << found.notes[0];
 }
 
+TEST(Extract, BackgroundThatChangesItsHueAloneIsNotCalledDarker) {
+  const Folder folder;
+  cv::Mat image = painted(disc({150, 130}), {0.1, 0.1, 0.1}, {0.6, 0.6, 0.6}, 255, CV_8UC3);
+  for (int y = 0; y < image.rows; ++y) {
+    for (int x = 0; x < image.cols; ++x) {
+      auto& pixel = image.at<cv::Vec3b>(y, x);
+      const int shift = 60 * x / image.cols - 30;
+      pixel = {cv::saturate_cast<uchar>(pixel[0] - shift), pixel[1],
+               cv::saturate_cast<uchar>(pixel[2] + shift)};
+    }
+  }
+  cv::imwrite(folder.file("hue.png"), image);
+  const Extraction found = extract(folder.file("hue.png"));
+  ASSERT_EQ(found.notes.size(), 1U);
+  EXPECT_EQ(found.notes[0], "the background's colour changes over the picture, which is evened out");
+}
+
 // Stripes of ink run out of the disc every 12 pixels, nearer to the background than to the paper, or farther.  They may be bitten
 // by some pixels, not cut off.
 TEST(Extract, PrintAtTheBorderIsPartOfThePiece) {

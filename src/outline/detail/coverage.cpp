@@ -138,9 +138,12 @@ Coverage coverage_from_background(const cv::Mat& image, const std::string& path)
   const cv::Mat mask = foreground(background, image, classes.high_mean, classes.threshold);
   Coverage result{field_of(distance, mask), distance, {}};
   if (!background.plain()) {
-    result.notes.push_back(fmt::format(
-        "the background's light changes from 100 to {:.0f} % over the picture, which is evened out",
-        100.0 * background.darkest()));
+    constexpr double kAsBright = 0.995;  // a change of colour alone
+    const bool darker = background.darkest() < kAsBright;
+    result.notes.push_back(
+        fmt::format("the background's {} over the picture, which is evened out",
+                    darker ? fmt::format("light changes from 100 to {:.0f} %", 100.0 * background.darkest())
+                           : "colour changes"));
   }
   return result;
 }
