@@ -258,9 +258,9 @@ std::optional<std::string> doubt_axes(const std::vector<Piece>& pieces) {
   const auto down = std::ranges::find_if_not(pieces, is_up);
   if (up == pieces.end() || down == pieces.end()) return std::nullopt;
   return fmt::format(
-      "{} has y up, as maps have, and {} has y down, as pictures have, so that one is the mirror image of "
-      "its piece beside the other; save "
-      "both as one kind, or call the column of a csv that was taken from a picture y_down",
+      "{} has y up, as maps have, and {} has y down, as pictures have, so that one of "
+      "them is mirrored beside the other; save both as one kind, or call the column of a csv that was taken "
+      "from a picture y_down",
       up->name, down->name);
 }
 

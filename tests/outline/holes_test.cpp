@@ -117,6 +117,19 @@ TEST(Holes, AssemblyPlacesTheFillingAndThePiecesAround) {
   }
 }
 
+TEST(Holes, AssemblyLeavesAStrangerOfTheHolesSizeOut) {
+  std::size_t placed = 0;
+  for (std::uint64_t seed = 21; seed <= 50; ++seed) {
+    Board board = board_with_plug(12.0, seed);
+    board.pieces[4] = board_with_plug(12.0, seed + 100).pieces[4];
+    const auto matcher = make_multiscale();
+    matcher->prepare(board.pieces);
+    const Assembly assembly = assemble(board.pieces, *matcher, {}, Context());
+    if (assembly.placements[4].group == assembly.placements[0].group) ++placed;
+  }
+  EXPECT_EQ(placed, 0U);
+}
+
 Outline square_with_hole() {
   Outline ring;
   ring.points = {{0, 0}, {100, 0}, {100, 100}, {0, 100}};

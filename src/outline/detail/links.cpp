@@ -16,6 +16,19 @@ constexpr double kTolerance = 1.5;
 constexpr std::size_t kCandidates = 4;
 // Candidates that say less than this are noise, nats.
 constexpr double kLeastHint = 1.5;
+// A piece in a hole: whatever has about the hole's size follows its border round somehow, and mostly no other join tells more.
+// So the search must find it likely, or this share of the piece's border must touch the hole's.
+constexpr double kLeastInHole = 0.3;
+constexpr double kLeastTouching = 0.9;
+
+/// Whether a candidate that lays one piece into a hole of the other may be used; true for all others.
+bool fills_hole(const JoinCandidate& candidate, const Silhouette& a, const Silhouette& b,
+                const Contact& contact) {
+  const auto& [begin_a, begin_b, length, hole_a, hole_b] = candidate.boundary;
+  if ((hole_a == 0 && hole_b == 0) || candidate.score >= kLeastInHole) return true;
+  const Ring& border = hole_a > 0 ? b.rings[0] : a.rings[0];
+  return contact.length >= kLeastTouching * border.step * static_cast<double>(border.end);
+}
 
 std::vector<Silhouette> silhouettes(const std::vector<Piece>& pieces, double step) {
   std::vector<std::unique_ptr<Silhouette>> made(pieces.size());
@@ -46,6 +59,7 @@ std::vector<Link> links_at(const std::vector<Silhouette>& shapes, const std::vec
         const double score = pairs[i].candidates[k].score;
         if (contact.information < kLeastHint && score < kSureScore) continue;
         if (contact.intrusion > options.most_intrusion * contact.length) continue;
+        if (!fills_hole(pairs[i].candidates[k], shapes[a], shapes[b], contact)) continue;
         found[i].push_back({a, b, pose, contact.information, contact.length, score});
       }
     }
