@@ -65,6 +65,7 @@ class OutlineAssembleCommand final : public Command {
     const outline::PieceSet set = load_folder(folder_, console);
     if (set.pieces.size() < 2) throw InputError(folder_, "holds one piece only", "give a folder of pieces");
     check_calibration(calibration_, multiscale, set.pieces, console);
+    check_holes(method_, set.pieces, console);
     console.detail(fmt::format("read {} pieces in {:.2f} s", set.pieces.size(), seconds_since(begin)));
     const std::unique_ptr<outline::Matcher> matcher = make_matcher(method_, multiscale);
     matcher->prepare(set.pieces);

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <regex>
 
@@ -80,6 +81,18 @@ const char* name_of(OutlineMethod method) {
       return "frechet";
   }
   return "multiscale";
+}
+
+void check_holes(OutlineMethod method, const std::vector<outline::Piece>& pieces, Console& console) {
+  constexpr double kLong = 1.0 / 12.0;  // of the middle piece's border
+  if (method == OutlineMethod::Automatic || method == OutlineMethod::Multiscale) return;
+  const double least = kLong * outline::median_perimeter(pieces);
+  const auto holed = std::ranges::find_if(pieces, [&](const outline::Piece& piece) {
+    return outline::long_borders(piece.outline, least).size() > 1;
+  });
+  if (holed == pieces.end()) return;
+  console.warning(fmt::format("{} has a hole, and what may lie in holes is found by multiscale only, not {}",
+                              holed->name, name_of(method)));
 }
 
 std::unique_ptr<outline::Matcher> make_matcher(OutlineMethod method,

@@ -41,6 +41,9 @@ void check_calibration(const std::optional<std::string>& calibration,
 /// "multiscale" ...; what Automatic stands for is named as such.
 const char* name_of(OutlineMethod method);
 
+/// Warns of long holes where the method compares none.
+void check_holes(OutlineMethod method, const std::vector<outline::Piece>& pieces, Console& console);
+
 /// The matcher of a method.
 std::unique_ptr<outline::Matcher> make_matcher(OutlineMethod method,
                                                const outline::MultiscaleOptions& multiscale = {});

@@ -84,6 +84,7 @@ class OutlineMatchCommand final : public Command {
     if (const auto doubt = outline::doubt_resolutions({a.file, b.file})) console.warning(*doubt);
     if (const auto doubt = outline::doubt_axes(pieces)) console.warning(*doubt);
     check_calibration(calibration_, multiscale, pieces, console);
+    check_holes(method_, pieces, console);
     console.detail(fmt::format("read both pieces in {:.2f} s", seconds_since(begin)));
     const std::unique_ptr<outline::Matcher> matcher = make_matcher(method_, multiscale);
     context.report("comparing outlines", 0.0);

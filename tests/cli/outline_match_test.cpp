@@ -297,6 +297,19 @@ TEST(OutlineMatch, FurtherPiecesOfAPictureHaveNumbers) {
   EXPECT_EQ(run({"outline", "match", folder / "good.png#2.png", scan}).exit_code, 0);
 }
 
+TEST(OutlineMatch, HolesAreToldWhereTheMethodComparesNone) {
+  const TemporaryFolder folder;
+  const std::string holed = picture(folder, "holed.png", [](cv::Mat& image) {
+    cv::rectangle(image, cv::Rect(6, 6, 50, 50), cv::Scalar(0), cv::FILLED);
+    cv::rectangle(image, cv::Rect(20, 20, 16, 16), cv::Scalar(255), cv::FILLED);
+  });
+  const std::string other = good_picture(folder);
+  EXPECT_EQ(run({"outline", "match", holed, other}).err, "");
+  const Finished told = run({"outline", "match", holed, other, "--method", "emd"});
+  EXPECT_NE(told.err.find("holed.png has a hole"), std::string::npos) << told.err;
+  EXPECT_EQ(run({"outline", "match", other, folder / "holed.png", "--method", "multiscale"}).err, "");
+}
+
 TEST(OutlineMatch, APieceThatRunsOutOfThePictureIsTold) {
   const TemporaryFolder folder;
   const std::string cut = picture(folder, "cut.png", [](cv::Mat& image) {
