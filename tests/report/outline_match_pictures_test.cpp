@@ -25,12 +25,12 @@ outline::JoinCandidate upright() {
 }
 
 /// match.png of a piece of 300 x 200 and one of 60 x 80 that meet along 60.
-cv::Mat drawn(const std::string& verdict, const outline::JoinCandidate& best = upright()) {
+cv::Mat drawn(const std::string& verdict, const outline::JoinCandidate& best = upright(),
+              const outline::Piece& large = rectangle("large", 300, 200)) {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("rejoin-outline-match-" + std::to_string(getpid()));
   std::filesystem::create_directories(folder);
-  write_outline_match_pictures(folder, rectangle("large", 300, 200), rectangle("small", 60, 80), {{best}},
-                               verdict);
+  write_outline_match_pictures(folder, large, rectangle("small", 60, 80), {{best}}, verdict);
   cv::Mat image = cv::imread((folder / "match.png").string());
   std::filesystem::remove_all(folder);
   return image;
@@ -63,6 +63,15 @@ TEST(OutlineMatchPictures, TheBoundaryOfAPieceUpsideDownIsMarkedWhereItIs) {
   const int marked = width_of(drawn("join"), 1, mark);
   EXPECT_GT(marked, 60);
   EXPECT_NEAR(width_of(drawn("join", turned_over), 1, mark), marked, 2);
+}
+
+TEST(OutlineMatchPictures, TheBoundaryOfAHoleIsMarkedAroundIt) {
+  outline::Piece holed = rectangle("holed", 300, 200);
+  holed.outline.holes = {{{100, 50}, {100, 110}, {160, 110}, {160, 50}}};
+  outline::JoinCandidate filled = upright();
+  filled.boundary = {0.0, 0.0, 240.0, 1, 0};
+  // The panel's 368 pixels show 300 units, and the line is 3 wide.
+  EXPECT_NEAR(width_of(drawn("join", filled, holed), 0, {44, 44, 206}), 60.0 * 368.0 / 300.0 + 3.0, 3.0);
 }
 
 TEST(OutlineMatchPictures, MapsAreDrawnWithNorthUp) {
