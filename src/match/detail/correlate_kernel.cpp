@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <mutex>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "match/detail/correlate_kernel.cpp"
@@ -55,9 +57,10 @@ struct TogetherAndAlong : Products {
     const std::size_t f = at(row);
     const auto slope = [&](const BorderFilter& filter) { return filter.slope.data(); };
     const auto mean = [&](const BorderFilter& filter) { return filter.mean.data(); };
-    const auto power = hn::Add(
-        hn::Mul(hn::Set(d, slope(fields.border_u)[row]), hn::LoadU(d, mean(fields.border_v) + column)),
-        hn::Mul(hn::Set(d, mean(fields.border_u)[row]), hn::LoadU(d, slope(fields.border_v) + column)));
+    const auto power = hn::Add(hn::Mul(hn::Set(d, slope(fields.along_u->border)[row]),
+                                       hn::LoadU(d, mean(fields.along_v->border) + column)),
+                               hn::Mul(hn::Set(d, mean(fields.along_u->border)[row]),
+                                       hn::LoadU(d, slope(fields.along_v->border) + column)));
     const Complexes together = product<&Spectra::slope_u>(f) + product<&Spectra::slope_v>(f);
     const Complexes along = product<&Spectra::mask>(f) * power;
     return {hn::Add(together.im, along.re), hn::Sub(together.re, along.im)};
@@ -80,13 +83,13 @@ void transform_fields(const CorrelateFields& fields, const float* x, const float
   for (std::size_t u = 0; u < width; u += kLines) {
     const Rows in{const_cast<float*>(x) + u, const_cast<float*>(y) + u, row};
     const Rows out{half.re.data() + u, half.im.data() + u, row};
-    transform_lines(fields.along_v, FilledUp<Rows>{in, height}, out, scratch.swing);
+    transform_lines(fields.along_v->plan, FilledUp<Rows>{in, height}, out, scratch.swing);
   }
   for (std::size_t v = 0; v < fields.size.height; v += kLines) {
     transpose(half.re.data() + v * row, row, width, scratch.swing[1], 2 * kLines);
     transpose(half.im.data() + v * row, row, width, scratch.swing[1] + kLines, 2 * kLines);
     const Rows out{to.re.data() + v, to.im.data() + v, frequencies};
-    transform_lines(fields.along_u, FilledUp<Buffer>{{scratch.swing[1]}, width}, out, scratch.swing);
+    transform_lines(fields.along_u->plan, FilledUp<Buffer>{{scratch.swing[1]}, width}, out, scratch.swing);
   }
   // The frequency after the last is the first again, for those who read backwards.
   for (std::size_t u = 0; u < fields.size.width; ++u) {
@@ -134,7 +137,7 @@ HWY_INLINE void transform_products(const CorrelateFields& fields, const ComplexF
   const Scratch scratch(fields);
   for (std::size_t v = 0; v < fields.size.height; v += kLines) {
     const Rows out{half.re.data() + v, half.im.data() + v, fields.spectrum_stride};
-    transform_lines(fields.along_u, Factors{{fields, v}}, out, scratch.swing);
+    transform_lines(fields.along_u->plan, Factors{{fields, v}}, out, scratch.swing);
   }
 }
 
@@ -146,7 +149,7 @@ HWY_INLINE void transform_sums(const CorrelateFields& fields, std::size_t k, std
   transpose(fields.half[k].re.data() + u * stride, stride, height, scratch.swing[1], 2 * kLines);
   transpose(fields.half[k].im.data() + u * stride, stride, height, scratch.swing[1] + kLines, 2 * kLines);
   const Rows out{fields.sums[2 * k + 1].data() + u, fields.sums[2 * k].data() + u, fields.map_stride};
-  transform_lines(fields.along_v, Buffer{scratch.swing[1]}, out, scratch.swing);
+  transform_lines(fields.along_v->plan, Buffer{scratch.swing[1]}, out, scratch.swing);
 }
 
 /// Inverse hyperbolic tangent of 0 <= x < 1.
@@ -295,6 +298,19 @@ void set_filter(BorderFilter& filter, std::size_t length) {
   }
 }
 
+/// Made once a length: a pair of fragments asks for hundreds of fields, of some tens of lengths.
+const SideTables& tables_of(std::size_t length) {
+  static std::mutex guard;
+  static std::map<std::size_t, SideTables> known;
+  const std::lock_guard lock(guard);
+  const auto [place, is_new] = known.try_emplace(length);
+  if (is_new) {
+    place->second.plan = plan_fft(length);
+    set_filter(place->second.border, length);
+  }
+  return place->second;
+}
+
 }  // namespace
 
 void Field::reserve(std::size_t count) {
@@ -312,8 +328,8 @@ void ComplexField::reserve(std::size_t count) {
 void resize(CorrelateFields& fields, FftSize size) {
   if (size == fields.size) return;
   fields.size = size;
-  fields.along_u = plan_fft(size.width);
-  fields.along_v = plan_fft(size.height);
+  fields.along_u = &tables_of(size.width);
+  fields.along_v = &tables_of(size.height);
   const std::size_t rows = whole_blocks(size.height);
   const std::size_t columns = whole_blocks(size.width);
   fields.map_stride = columns;
@@ -330,8 +346,6 @@ void resize(CorrelateFields& fields, FftSize size) {
       field->reserve(frequencies);
     }
   }
-  set_filter(fields.border_u, size.width);
-  set_filter(fields.border_v, size.height);
   fields.scores.reserve((size.height + 2) * fields.score_stride);
   for (Field& field : fields.scratch) field.reserve(std::max(rows, columns) * 2 * kBlock);
 }

@@ -71,6 +71,12 @@ struct BorderFilter {
   Field mean;
 };
 
+/// What fields need along one side.
+struct SideTables {
+  FftPlan plan;
+  BorderFilter border;
+};
+
 /// Correlates a fixed map with others on fields of one size at a time.
 ///
 /// With K, Q, R = U + i V the spectra of mask, energy and slopes of the maps 1 and 2, and G the power that taking the
@@ -82,10 +88,8 @@ struct CorrelateFields {
   std::size_t map_stride = 0;       ///< of rows of maps and sums, along u
   std::size_t spectrum_stride = 0;  ///< of rows of spectra, along v
   std::size_t score_stride = 0;
-  FftPlan along_u;
-  FftPlan along_v;
-  BorderFilter border_u;
-  BorderFilter border_v;
+  const SideTables* along_u = nullptr;
+  const SideTables* along_v = nullptr;
   std::array<Field, 4> map;          ///< mask, energy, slopes along u and v, filled up to the stride
   std::array<ComplexField, 4> half;  ///< transformed along one side only
   Spectra first;

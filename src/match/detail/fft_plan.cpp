@@ -20,17 +20,16 @@ struct Radix {
 /// Largest first, so that few passes are needed; 4 leads, as zeros and products are put in there.
 constexpr std::array<Radix, 4> kRadices = {{{5, 20.0}, {3, 15.0}, {4, 13.0}, {2, 10.0}}};
 
-/// Factors of a length without the leading 4; empty if it has others than 2, 3 and 5.
-std::vector<Radix> factors_of(std::size_t length) {
-  std::vector<Radix> factors;
-  if (length < kSmallest || length % 4 != 0) return factors;
+/// Calls visit(radix) for the factors of a length without the leading 4.
+/// \return whether it has no others than 2, 3 and 5; else some may have been visited
+template <class Visit>
+bool factorise(std::size_t length, const Visit& visit) {
+  if (length < kSmallest || length % 4 != 0) return false;
   std::size_t left = length / 4;
   for (const Radix& r : kRadices) {
-    for (; left % static_cast<std::size_t>(r.radix) == 0; left /= static_cast<std::size_t>(r.radix))
-      factors.push_back(r);
+    for (; left % static_cast<std::size_t>(r.radix) == 0; left /= static_cast<std::size_t>(r.radix)) visit(r);
   }
-  if (left != 1) factors.clear();
-  return factors;
+  return left == 1;
 }
 
 struct Length {
@@ -42,10 +41,8 @@ struct Length {
 std::vector<Length> lengths_from(std::size_t least) {
   std::vector<Length> lengths;
   for (std::size_t length = (std::max(least, kSmallest) + 3) / 4 * 4;; length += 4) {
-    const auto factors = factors_of(length);
-    if (factors.empty()) continue;
     double cost = kRadices[2].cost;
-    for (const Radix& r : factors) cost += r.cost;
+    if (!factorise(length, [&cost](const Radix& r) { cost += r.cost; })) continue;
     lengths.push_back({length, cost * static_cast<double>(length)});
     if (length > least + least / 3) return lengths;
   }
@@ -61,7 +58,7 @@ FftPlan plan_fft(std::size_t length) {
   FftPlan plan;
   plan.length = length;
   std::vector<int> radices = {4};
-  for (const Radix& r : factors_of(length)) radices.push_back(r.radix);
+  factorise(length, [&radices](const Radix& r) { radices.push_back(r.radix); });
   std::size_t done = 1;
   for (const int radix : radices) {
     const auto r = static_cast<std::size_t>(radix);
@@ -83,8 +80,9 @@ FftPlan plan_fft(std::size_t length) {
 FftSize fft_size(std::size_t least_width, std::size_t least_height) {
   FftSize best;
   double least_cost = std::numeric_limits<double>::max();
+  const std::vector<Length> widths = lengths_from(least_width);
   for (const Length& height : lengths_from(least_height)) {
-    for (const Length& width : lengths_from(least_width)) {
+    for (const Length& width : widths) {
       const double cost = static_cast<double>(whole_blocks(height.length)) * width.cost +
                           static_cast<double>(whole_blocks(width.length)) * height.cost;
       if (cost >= least_cost) continue;
