@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "core/rigid.hpp"
 #include "match/evidence.hpp"
@@ -24,6 +25,13 @@ struct AlignOptions {
   int half = -1;       ///< 0 or 1: every other of B's broken samples: the two share none; -1: all
 };
 
+struct LookOptions {
+  int most_samples = 0;  ///< of B's samples are looked at; 0: all
+  int facet_b = -1;      ///< only samples of this facet of B touch; -1: all its broken surface
+  bool quick =
+      false;  ///< as in AlignOptions, for what speaks against the joint; the contact is measured exactly
+};
+
 /// Two prepared fragments, indexed for alignment.  Poses are B -> A, both relative to their mesh's origin.
 /// Const members may be called from several threads.
 class Joint {
@@ -35,15 +43,19 @@ class Joint {
   /// are lined up too. Gaps are tolerated (worn surfaces recede): outliers weigh nothing (Tukey).
   Rigid align(const Rigid& start, const AlignOptions& options) const;
 
-  /// \param most_samples  of B's samples are looked at; 0: all
-  /// \param facet_b       only samples of this facet of B touch; -1: all its broken surface
-  /// \param quick         as in AlignOptions, for what speaks against the joint; the contact is measured exactly
+  /// The parameters are those of LookOptions.
   Evidence evidence(const Rigid& pose, int most_samples, int facet_b = -1, bool quick = false) const;
+
+  /// The same, or nullopt, sooner, where the contact alone tells that its strength() is not above the limit.
+  std::optional<Evidence> evidence_above(double limit, const Rigid& pose, const LookOptions& options) const;
 
   /// The evidence of all samples, with what both surfaces agree on.  What the shape is worth is the geometric mean of what B's
   /// samples over A and A's over B say: shape that one of the two has alone, as a rough break on a plane, says nothing.  Of the
   /// continuation the lesser counts.
   Evidence agreed_evidence(const Rigid& pose) const;
+
+  /// The same as evidence_above() is to evidence().
+  std::optional<Evidence> agreed_evidence_above(double limit, const Rigid& pose) const;
 
   /// Every patch of a contact counts as one that is independent of the others.  Of smooth surfaces that is not so: there the shape is the
   /// same over many patches.  This is the information that is left if deviations within small surroundings, between these within

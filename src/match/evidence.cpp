@@ -47,6 +47,7 @@ constexpr double kMostContinuation = 4.5;
 constexpr std::array kScales{1.5,
                              3.0};      // patches: radii of the surroundings that tell small shape from large
 constexpr double kSmallestShare = 0.4;  // of the information, by scales: right poses have as much
+constexpr double kNoLimit = -std::numeric_limits<double>::infinity();
 
 /// 1.48 times the median absolute deviation: the standard deviation of what is not outliers.
 double robust_deviation(std::vector<double> values) {
@@ -117,16 +118,28 @@ class Look {
         most_samples_(most_samples),
         quick_(quick) {}
 
-  Evidence evidence(int facet_b) const {
-    Evidence e;
-    e.tolerance = lengths_.tolerance;
-    const Contact contact = contact_of(b_.broken_of(facet_b));
-    look_at_contact(contact, e);
+  /// The contact, to which complete() adds what speaks against the joint and what goes on across its border.
+  struct Begun {
+    Evidence evidence;
+    std::vector<glm::vec3> touching;  ///< samples, A's axes
+  };
+
+  Begun begin(int facet_b) const {
+    Begun begun;
+    begun.evidence.tolerance = lengths_.tolerance;
+    Contact contact = contact_of(b_.broken_of(facet_b));
+    look_at_contact(contact, begun.evidence);
+    begun.touching = std::move(contact.touching);
+    return begun;
+  }
+
+  Evidence complete(const Begun& begun) const {
+    Evidence e = begun.evidence;
     look_for_penetration(e);
     if (lengths_.thickness > 0) {
       look_at_walls(e);
-    } else if (most_samples_ <= 0) {
-      look_across_border(contact.touching, e);
+    } else if (looks_across_border()) {
+      look_across_border(begun.touching, e);
     }
     return e;
   }
@@ -158,6 +171,8 @@ class Look {
     }
     return std::min(1.0, told / whole);
   }
+
+  bool looks_across_border() const { return lengths_.thickness <= 0 && most_samples_ <= 0; }
 
  private:
   /// What of B lies over A.
@@ -350,6 +365,22 @@ double strength_of_shape(const Evidence& evidence) {
          (1.0 + loose * loose * loose * loose);
 }
 
+/// What strength_of_shape() can be at most once a look is complete: what is inside the other body and walls that do not go on only
+/// take from it.
+double most_of_shape(const Evidence& begun) {
+  return std::max(0.0, strength_of_shape(begun));
+}
+
+/// The same for what continuation adds.
+double most_of_continuation(const Look& look, const Evidence& begun) {
+  return look.looks_across_border() ? kMostContinuation * std::pow(touching_share(begun), kOpenCosts) : 0.0;
+}
+
+/// Whether a bound is not above the limit, with more room than rounding takes.
+bool stays_below(double bound, double limit) {
+  return bound * (1.0 + 1e-9) <= limit;
+}
+
 }  // namespace
 
 double median_gap(std::vector<double> gaps) {
@@ -376,8 +407,17 @@ double rank(const Evidence& evidence) {
          kContact * patches * std::pow(touching_share(evidence), kOpenCosts);
 }
 
+std::optional<Evidence> Joint::evidence_above(double limit, const Rigid& pose,
+                                              const LookOptions& options) const {
+  const Look look(*sides_, pose, options.most_samples, options.quick);
+  const Look::Begun begun = look.begin(options.facet_b);
+  if (stays_below(most_of_shape(begun.evidence) + most_of_continuation(look, begun.evidence), limit))
+    return std::nullopt;
+  return look.complete(begun);
+}
+
 Evidence Joint::evidence(const Rigid& pose, int most_samples, int facet_b, bool quick) const {
-  return Look(*sides_, pose, most_samples, quick).evidence(facet_b);
+  return *evidence_above(kNoLimit, pose, {most_samples, facet_b, quick});
 }
 
 double Joint::share_by_scale(const Rigid& pose) const {
@@ -385,14 +425,28 @@ double Joint::share_by_scale(const Rigid& pose) const {
                    Look(*exchanged_, inverse(pose), 0, false).share_by_scale());
 }
 
-Evidence Joint::agreed_evidence(const Rigid& pose) const {
-  Evidence agreed = evidence(pose, 0);
-  const Evidence from_a = Look(*exchanged_, inverse(pose), 0, false).evidence(-1);
+std::optional<Evidence> Joint::agreed_evidence_above(double limit, const Rigid& pose) const {
+  const Look look(*sides_, pose, 0, false);
+  const Look::Begun begun = look.begin(-1);
+  const double continuation = most_of_continuation(look, begun.evidence);
+  const double shape = most_of_shape(begun.evidence);
+  if (shape <= 0.0 && stays_below(continuation, limit)) return std::nullopt;
+  const Look look_from_a(*exchanged_, inverse(pose), 0, false);
+  const Look::Begun begun_from_a = look_from_a.begin(-1);
+  const double shape_from_a = most_of_shape(begun_from_a.evidence);
+  if (stays_below(std::sqrt(shape * shape_from_a) + continuation, limit)) return std::nullopt;
+  Evidence agreed = look.complete(begun);
   const double there = strength_of_shape(agreed);
+  if (there <= 0.0 && agreed.continuation <= 0.0) return agreed;  // whatever A's samples say
+  const Evidence from_a = look_from_a.complete(begun_from_a);
   const double back = strength_of_shape(from_a);
   if (there > 0.0) agreed.information *= std::sqrt(std::max(0.0, back) / there);
   agreed.continuation = std::min(agreed.continuation, from_a.continuation);
   return agreed;
+}
+
+Evidence Joint::agreed_evidence(const Rigid& pose) const {
+  return *agreed_evidence_above(kNoLimit, pose);
 }
 
 }  // namespace rejoin::match

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/parallel.hpp"
 #include "match/esa_search.hpp"
@@ -17,6 +18,7 @@ constexpr std::array kSteps{0.4, 0.2, 0.1};     // of a climb, tolerances
 constexpr int kStepRounds = 4;                  // of each size, at most
 constexpr double kUnbacked = 0.9;               // share of the contact
 constexpr double kSkin = 4.0;                   // patches: less goes on at wrong poses, too
+constexpr double kNoLimit = -std::numeric_limits<double>::infinity();
 
 void sort_by_rank(std::vector<Hypothesis>& list) {
   std::stable_sort(list.begin(), list.end(), [](const Hypothesis& x, const Hypothesis& y) {
@@ -25,11 +27,11 @@ void sort_by_rank(std::vector<Hypothesis>& list) {
 }
 
 void take_if_stronger(const Rigid& pose, const Joint& joint, Hypothesis& hypothesis) {
-  const Evidence evidence = joint.agreed_evidence(pose);
-  if (strength(evidence) <= hypothesis.strength) return;
+  const auto evidence = joint.agreed_evidence_above(hypothesis.strength, pose);
+  if (!evidence || strength(*evidence) <= hypothesis.strength) return;
   hypothesis.pose = pose;
-  hypothesis.evidence = evidence;
-  hypothesis.strength = strength(evidence);
+  hypothesis.evidence = *evidence;
+  hypothesis.strength = strength(*evidence);
 }
 
 /// Small motions of a joint that has some shape: turns about its centre and shifts, both ways along its own axes.
@@ -103,16 +105,18 @@ void refine(std::vector<Hypothesis>& list, const Joint& joint, const Pass& pass,
       AlignOptions options = pass.align;
       options.facet_b = pass.facet_only ? hypothesis.facet_b : -1;
       const bool all = pass.evidence_samples == 0 && !pass.facet_only;
-      const auto weighed = [&](const Rigid& pose) {
-        return all ? joint.agreed_evidence(pose)
-                   : joint.evidence(pose, pass.evidence_samples, options.facet_b, options.quick);
+      const auto weighed = [&](double above, const Rigid& pose) {
+        return all ? joint.agreed_evidence_above(above, pose)
+                   : joint.evidence_above(above, pose,
+                                          {pass.evidence_samples, options.facet_b, options.quick});
       };
       const Rigid moved = joint.align(hypothesis.pose, options);
-      const Evidence before = weighed(hypothesis.pose);
-      const Evidence after = weighed(moved);
-      const bool moves = strength(after) >= strength(before);
+      const Evidence after = *weighed(kNoLimit, moved);
+      const double worth = strength(after);
+      const auto before = weighed(worth, hypothesis.pose);
+      const bool moves = !before || worth >= strength(*before);
       if (moves) hypothesis.pose = moved;
-      hypothesis.evidence = moves ? after : before;
+      hypothesis.evidence = moves ? after : *before;
       hypothesis.strength = strength(hypothesis.evidence);
       done[k] = 1;
     }

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <vector>
+
 #include "match/verify.hpp"
 #include "prepared_pair.hpp"
 
@@ -34,6 +37,55 @@ TEST(Evidence, ContactOrdersWeakPosesAndNoStrongOnes) {
   gaping.shared_area = 2.0 * flat.contact_area;
   EXPECT_LT(rank(gaping), 0.1 * rank(flat));
   EXPECT_EQ(rank(Evidence{}), 0.0);
+}
+
+/// Poses from the truth to where nothing touches, and what evidence at them is worth.
+std::vector<Rigid> poses_around(const Rigid& truth) {
+  std::vector<Rigid> poses;
+  for (int k = 0; k < 12; ++k) {
+    const double much = 0.2 * k;
+    const glm::dvec3 axis = glm::normalize(glm::dvec3(1.0 + k % 3, -1.0 + k % 2, 2.0 - k % 5));
+    poses.push_back(Rigid{axis_rotation(axis, 0.5 * much * kDegree), much * axis} * truth);
+  }
+  return poses;
+}
+
+/// Asks for evidence that is stronger than limits around its strength.
+/// \param above  Joint's function  \param full  its strength
+/// \return how often it was told without a look at everything
+template <class Above>
+int told_early(const Above& above, double full) {
+  EXPECT_TRUE(above(full - 1e-3)) << full;
+  int early = 0;
+  for (const double limit : {full, full + 0.5, full + 2.0, full + 10.0, 100.0}) {
+    const auto found = above(limit);
+    if (found) {
+      EXPECT_EQ(strength(*found), full);
+    } else {
+      ++early;
+    }
+  }
+  return early;
+}
+
+TEST(Joint, EvidenceThatIsNotStrongEnoughIsToldEarlyAndNoOther) {
+  const Pair solid = make_pair(6);
+  Pair thin = solid;
+  thin.a.facets.wall_thickness = thin.b.facets.wall_thickness = 4.0;
+  for (const Pair& pair : {std::cref(solid), std::cref(thin)}) {
+    const Joint joint(pair.a, pair.b);
+    int early = 0;
+    int early_agreed = 0;
+    for (const Rigid& pose : poses_around(pair.truth)) {
+      const LookOptions look{.most_samples = 300, .quick = true};
+      early += told_early([&](double limit) { return joint.evidence_above(limit, pose, look); },
+                          strength(joint.evidence(pose, 300, -1, true)));
+      early_agreed += told_early([&](double limit) { return joint.agreed_evidence_above(limit, pose); },
+                                 strength(joint.agreed_evidence(pose)));
+    }
+    EXPECT_GT(early, 20);
+    EXPECT_GT(early_agreed, 15);
+  }
 }
 
 TEST(Joint, AlignmentBringsADisturbedPoseBack) {
