@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -26,7 +27,16 @@ class NearTable {
 
   /// A point that is closer than `radius` and nearly the nearest, and its distance.
   /// \param radius  beyond the reach of the table nothing is sure to be found
-  std::optional<std::pair<std::uint32_t, float>> nearest_within(const glm::vec3& point, float radius) const;
+  std::optional<std::pair<std::uint32_t, float>> nearest_within(const glm::vec3& point, float radius) const {
+    // Whether a cell has a point is as hard to foretell for the processor as how far it is, so all cells have one, and what
+    // lies outside the grid goes to a cell at its end, which is out of reach of all.
+    const glm::vec3 p = glm::min(glm::max(glm::vec3(0.0F), (point - low_) * per_unit_), last_);
+    const glm::uvec3 cell(p);
+    const std::uint32_t nearest = nearest_[cells_of_brick_[brick_of(cell)] + inside(cell)];
+    const float distance = glm::distance(points_[nearest], point);
+    if (!(distance < radius)) return std::nullopt;
+    return std::pair(nearest, distance);
+  }
 
  private:
   class Spread;
@@ -42,12 +52,16 @@ class NearTable {
     return (k.z << 2U * kBrickBits) | (k.y << kBrickBits) | k.x;
   }
 
-  std::vector<glm::vec3> points_;
-  glm::vec3 low_{0.0F};  ///< corner of the grid
-  float per_unit_ = 0;   ///< cells a unit of length
-  glm::uvec3 bricks_{0};
-  std::vector<std::uint32_t> cells_of_brick_;  ///< where its cells start
-  std::vector<std::uint32_t> nearest_;         ///< of each cell of the bricks that are kept
+  static constexpr float kNowhere = std::numeric_limits<float>::infinity();
+
+  std::vector<glm::vec3> points_{glm::vec3(kNowhere)};  ///< the last stands for none
+  glm::vec3 low_{0.0F};                                 ///< corner of the grid
+  float per_unit_ = 0;                                  ///< cells a unit of length
+  glm::vec3 last_{0.0F};                                ///< inside the last cell
+  glm::uvec3 bricks_{1};
+  std::vector<std::uint32_t> cells_of_brick_{0};  ///< where its cells start; 0: it is not kept
+  /// Of each cell: of a brick without points, then of those that are kept.
+  std::vector<std::uint32_t> nearest_ = std::vector<std::uint32_t>(std::size_t{kBrick} * kBrick * kBrick, 0);
 };
 
 }  // namespace rejoin::mesh
