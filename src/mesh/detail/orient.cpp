@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 #include "mesh/detail/outlook.hpp"
@@ -16,19 +17,29 @@ struct Side {
   bool forward;  ///< runs from the smaller to the larger vertex
 };
 
+/// Sides by edge, then by face.  Dealt out by the smaller vertex first, of which each has a few: millions take half the time then.
 std::vector<Side> sorted_sides(const Mesh& mesh) {
-  std::vector<Side> sides;
-  sides.reserve(3 * mesh.faces.size());
-  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      const std::uint64_t a = mesh.faces[f][k];
-      const std::uint64_t b = mesh.faces[f][(k + 1) % 3];
-      sides.push_back({(std::min(a, b) << 32U) | std::max(a, b), f, a < b});
+  std::vector<std::uint32_t> first(mesh.vertices.size() + 1, 0);
+  const auto for_each_side = [&mesh](const auto& visit) {
+    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+      const glm::uvec3 face = mesh.faces[f];
+      for (int k = 0; k < 3; ++k) visit(face[k], face[(k + 1) % 3], f);
     }
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return a.edge != b.edge ? a.edge < b.edge : a.face < b.face;
+  };
+  for_each_side([&first](std::uint32_t a, std::uint32_t b, std::uint32_t) { ++first[std::min(a, b) + 1]; });
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<Side> sides(3 * mesh.faces.size());
+  for_each_side([&](std::uint32_t a, std::uint32_t b, std::uint32_t f) {
+    const std::uint64_t low = std::min(a, b);
+    sides[first[low]++] = {(low << 32U) | std::max(a, b), f, a < b};
   });
+  std::size_t begin = 0;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {  // of each vertex first has become the end
+    std::sort(
+        sides.begin() + static_cast<std::ptrdiff_t>(begin), sides.begin() + first[v],
+        [](const Side& a, const Side& b) { return a.edge != b.edge ? a.edge < b.edge : a.face < b.face; });
+    begin = first[v];
+  }
   return sides;
 }
 
