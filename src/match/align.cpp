@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/tukey.hpp"
 #include "match/detail/joint_sides.hpp"
@@ -39,6 +40,15 @@ Rigid moved(const Rigid& pose, const Vector6& step, const glm::dvec3& pivot) {
   return Rigid{rotation, pivot + shift - rotation * pivot} * pose;
 }
 
+/// Samples of B that take part, with what is known of A's nearest points from one round to the next: poses settle, and then
+/// hardly any point needs to be searched.
+struct Chosen {
+  std::vector<std::uint32_t> list;
+  std::vector<mesh::PointIndex::Known> known;
+
+  explicit Chosen(std::vector<std::uint32_t> samples) : list(std::move(samples)), known(list.size()) {}
+};
+
 /// B's samples that lie within `reach` of A's box can matter; every nth of them if there are more than
 /// `most`.
 std::vector<std::uint32_t> chosen(const detail::Cloud& cloud, const std::vector<std::uint32_t>& from,
@@ -60,15 +70,16 @@ std::vector<std::uint32_t> chosen(const detail::Cloud& cloud, const std::vector<
 }
 
 void add_broken(System& system, const detail::JointSides& sides, const Rigid& pose, const glm::dvec3& pivot,
-                const std::vector<std::uint32_t>& list, double reach, const AlignOptions& options) {
+                Chosen& samples, double reach, const AlignOptions& options) {
   const detail::Cloud& a = sides.a().broken;
   const detail::Cloud& b = sides.b().broken;
   const detail::Move move(pose);
   const detail::Finder finder = sides.broken_finder(options.quick);
-  for (const auto i : list) {
+  for (std::size_t k = 0; k < samples.list.size(); ++k) {
+    const std::uint32_t i = samples.list[k];
     if (options.core_only && b.edge[i]) continue;
     const glm::vec3 p = move(b.points[i]);
-    const auto hit = finder.within(p, 1.5 * reach);
+    const auto hit = finder.within(p, 1.5 * reach, samples.known[k]);
     if (!hit || (options.core_only && a.edge[hit->first])) continue;
     const glm::vec3 n = a.normals[hit->first];
     if (glm::dot(n, move.direction(b.normals[i])) > detail::kFacing) continue;
@@ -79,15 +90,16 @@ void add_broken(System& system, const detail::JointSides& sides, const Rigid& po
 
 /// Walls continue across the seam: (p - q).(n_p + n_q) vanishes on planes, cylinders and spheres.
 void add_walls(System& system, const detail::JointSides& sides, const Rigid& pose, const glm::dvec3& pivot,
-               const std::vector<std::uint32_t>& list, double reach, bool quick) {
+               Chosen& samples, double reach, bool quick) {
   const detail::Cloud& a = sides.a().walls;
   const detail::Cloud& b = sides.b().walls;
   const double near = detail::kWallNear * sides.lengths().thickness;
   const detail::Move move(pose);
   const detail::Finder finder = sides.wall_finder(quick);
-  for (const auto i : list) {
+  for (std::size_t k = 0; k < samples.list.size(); ++k) {
+    const std::uint32_t i = samples.list[k];
     const glm::vec3 p = move(b.points[i]);
-    const auto hit = finder.within(p, near);
+    const auto hit = finder.within(p, near, samples.known[k]);
     if (!hit) continue;
     const glm::vec3 n_b = move.direction(b.normals[i]);
     const glm::vec3 n_a = a.normals[hit->first];
@@ -115,22 +127,24 @@ Rigid Joint::align(const Rigid& start, const AlignOptions& options) const {
   Rigid pose = start;
   auto list = chosen(s.b().broken, s.b().broken_of(options.facet_b), s.broken_finder(options.quick), pose,
                      2.0 * options.reach_start, options.most_samples);
-  const auto walls = l.thickness > 0
-                         ? chosen(s.b().walls, s.b().all_walls, s.wall_finder(options.quick), pose,
-                                  detail::kWallNear * l.thickness + options.reach_start, options.most_samples)
-                         : std::vector<std::uint32_t>{};
+  auto near_walls = l.thickness > 0
+                        ? chosen(s.b().walls, s.b().all_walls, s.wall_finder(options.quick), pose,
+                                 detail::kWallNear * l.thickness + options.reach_start, options.most_samples)
+                        : std::vector<std::uint32_t>{};
   if (options.half >= 0) {
     std::erase_if(list, [&](std::uint32_t i) { return static_cast<int>(i % 2) != options.half; });
   }
   if (list.size() < 12) return pose;
+  Chosen broken(std::move(list));
+  Chosen walls(std::move(near_walls));
   for (int k = 0; k < options.iterations; ++k) {
     const double part = options.iterations > 1 ? static_cast<double>(k) / (options.iterations - 1) : 1.0;
     const double reach = options.reach_start * std::pow(options.reach_end / options.reach_start, part);
     glm::dvec3 pivot(0.0);
-    for (const auto i : list) pivot += pose(glm::dvec3(s.b().broken.points[i]));
-    pivot /= static_cast<double>(list.size());
+    for (const auto i : broken.list) pivot += pose(glm::dvec3(s.b().broken.points[i]));
+    pivot /= static_cast<double>(broken.list.size());
     System system;
-    add_broken(system, s, pose, pivot, list, reach, options);
+    add_broken(system, s, pose, pivot, broken, reach, options);
     if (system.weight < 6.0) break;
     if (l.thickness > 0) add_walls(system, s, pose, pivot, walls, reach, options.quick);
     // A little resistance keeps directions still that nothing holds (sliding on a plane).

@@ -62,6 +62,32 @@ std::optional<std::pair<std::uint32_t, float>> PointIndex::nearest_within(const 
   return std::pair(index, std::sqrt(squared));
 }
 
+std::optional<std::pair<std::uint32_t, float>> PointIndex::nearest_within(const glm::vec3& point,
+                                                                          float radius, Known& known) const {
+  constexpr float kRounding = 1e-6F;  // of distances, several times
+  const float moved = glm::distance(point, known.place);
+  if (!known.nearest && moved + radius * (1.0F + kRounding) < known.room) return std::nullopt;
+  if (known.nearest && moved < known.room) {
+    // In the order of the search, so that the bits are the same.
+    const glm::vec3 off = impl_->points.data[*known.nearest] - point;
+    const float squared = off.x * off.x + off.y * off.y + off.z * off.z;
+    if (!(squared < radius * radius)) return std::nullopt;
+    return std::pair(*known.nearest, std::sqrt(squared));
+  }
+  float squared = radius * radius;
+  float others = 0;
+  std::uint32_t index = 0;
+  const bool found = impl_->ready_nearest().nearest(point, squared, index, others);
+  const float next = (1.0F - 4.0F * kRounding) * std::sqrt(others);
+  known = {point, next, std::nullopt};
+  if (!found) return std::nullopt;
+  const float distance = std::sqrt(squared);
+  known.nearest = index;
+  known.room =
+      0.499F * (next - distance);  // as much as it comes nearer to others it may go away from this one
+  return std::pair(index, distance);
+}
+
 void PointIndex::nearest(const glm::vec3& point, std::size_t k, std::vector<std::uint32_t>& found) const {
   found.assign(std::min(k, impl_->points.data.size()), 0);
   if (impl_->points.data.empty()) return;

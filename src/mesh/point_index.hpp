@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -27,6 +28,18 @@ class PointIndex {
 
   /// Nearest point that is closer than `radius`, and its distance.  The smaller the radius, the faster.
   std::optional<std::pair<std::uint32_t, float>> nearest_within(const glm::vec3& point, float radius) const;
+
+  /// The answer to an earlier look, and how far from its place it stays the answer.
+  struct Known {
+    glm::vec3 place{std::numeric_limits<float>::quiet_NaN()};
+    float room = 0;  ///< without a nearest point: distance up to which there is none
+    std::optional<std::uint32_t> nearest;
+  };
+
+  /// The same, for a point that moves little from look to look: most need no search then.
+  /// \param known  of the point's last look, and only of this index
+  std::optional<std::pair<std::uint32_t, float>> nearest_within(const glm::vec3& point, float radius,
+                                                                Known& known) const;
 
   /// The k nearest, nearest first.
   void nearest(const glm::vec3& point, std::size_t k, std::vector<std::uint32_t>& found) const;

@@ -48,6 +48,31 @@ TEST(PointIndex, NearestWithinIsThatOfAllPointsOrNone) {
   EXPECT_LT(hits, kAsked * 9 / 10);
 }
 
+TEST(PointIndex, WhatIsKnownOfTheLastLookChangesNoAnswer) {
+  Random random(9);
+  std::vector<glm::vec3> points(3000);
+  for (glm::vec3& point : points) point = random_point(random, 1.0F, kThin);
+  points.insert(points.end(), points.begin(),
+                points.begin() + 300);  // of two in one place either may be nearest
+  const PointIndex index(points);
+  int known_hits = 0;
+  int known_misses = 0;
+  for (int walk = 0; walk < 300; ++walk) {
+    glm::vec3 asked = random_point(random, 1.5F, kThin);
+    PointIndex::Known known;
+    for (int k = 0; k < 30; ++k) {
+      const auto radius = static_cast<float>(0.02 + 0.08 * random.uniform());
+      const glm::vec3 place = known.place;
+      const auto found = index.nearest_within(asked, radius, known);
+      ASSERT_EQ(found, index.nearest_within(asked, radius)) << "walk " << walk << ", step " << k;
+      if (known.place == place) ++(found ? known_hits : known_misses);
+      asked += random_point(random, k % 5 == 0 ? 0.1F : 0.002F);
+    }
+  }
+  EXPECT_GT(known_hits, 500);  // searched anew at every step it is none
+  EXPECT_GT(known_misses, 500);
+}
+
 TEST(PointIndex, NearestIsThatOfAllPointsForAnyNumberOfThem) {
   Random random(8);
   for (std::size_t count = 1; count < 300; ++count) {

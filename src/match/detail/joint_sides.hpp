@@ -40,6 +40,13 @@ class Finder {
     return table_ != nullptr ? table_->nearest_within(point, r) : index_->nearest_within(point, r);
   }
 
+  /// \param known  of the point's last look by this finder; not used with a table
+  std::optional<std::pair<std::uint32_t, float>> within(const glm::vec3& point, double radius,
+                                                        mesh::PointIndex::Known& known) const {
+    const auto r = static_cast<float>(radius);
+    return table_ != nullptr ? table_->nearest_within(point, r) : index_->nearest_within(point, r, known);
+  }
+
  private:
   const mesh::PointIndex* index_;
   const mesh::NearTable* table_;

@@ -25,26 +25,29 @@ struct Waiting {
 
 constexpr std::size_t kMostWaiting = 128;  // 15 a level and 16 on the last; 2^31 points are 8 levels
 
-/// Squared distances of points or boxes by `distance(tag, first lane, axis)`, and a bit for each that is below the limit.
+/// Squared distances of points or boxes by `distance(tag, first lane, axis)`.
 template <typename Distance>
-HWY_INLINE unsigned below(float limit, float* squared, const Distance& distance) {
+HWY_INLINE Vector squares(std::size_t first, const Distance& distance) {
   const Tag d;
-  unsigned bits = 0;
-  for (std::size_t k = 0; k < kPointsAtOnce; k += hn::Lanes(d)) {
-    const Vector x = distance(d, k, 0);
-    const Vector y = distance(d, k, 1);
-    const Vector z = distance(d, k, 2);
-    const Vector sum = hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
-    hn::StoreU(sum, d, squared + k);
-    std::uint8_t byte[8] = {};
-    hn::StoreMaskBits(d, hn::Lt(sum, hn::Set(d, limit)), byte);
-    bits |= (static_cast<unsigned>(byte[0]) | static_cast<unsigned>(byte[1]) << 8U) << k;
-  }
-  return bits;
+  const Vector x = distance(d, first, 0);
+  const Vector y = distance(d, first, 1);
+  const Vector z = distance(d, first, 2);
+  return hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
 }
 
-bool search(const PointNode* nodes, const PointLeaf* leaves, const glm::vec3& point, float& best,
-            std::uint32_t& index) {
+HWY_INLINE unsigned bits_of(hn::Mask<Tag> mask) {
+  std::uint8_t byte[8] = {};
+  hn::StoreMaskBits(Tag(), mask, byte);
+  return static_cast<unsigned>(byte[0]) | static_cast<unsigned>(byte[1]) << 8U;
+}
+
+/// \tparam kOthers  whether `others` is asked for
+template <bool kOthers>
+HWY_INLINE bool search_any(const PointNode* nodes, const PointLeaf* leaves, const glm::vec3& point,
+                           float& best, std::uint32_t& index, float& others) {
+  const Tag d;
+  const Vector nothing = hn::Set(d, std::numeric_limits<float>::infinity());
+  Vector passed = nothing;  // all that is left aside, but for what waits
   std::array<Waiting, kMostWaiting> waiting;
   std::size_t count = 0;
   std::int32_t at = 0;
@@ -53,11 +56,18 @@ bool search(const PointNode* nodes, const PointLeaf* leaves, const glm::vec3& po
   while (true) {
     if (at >= 0) {
       const PointNode& node = nodes[at];
-      unsigned bits = below(best, squared, [&](const Tag d, std::size_t k, int axis) HWY_ATTR {
-        const Vector p = hn::Set(d, point[axis]);
-        return hn::Max(hn::Zero(d), hn::Max(hn::Sub(hn::LoadU(d, node.low[axis] + k), p),
-                                            hn::Sub(p, hn::LoadU(d, node.high[axis] + k))));
-      });
+      unsigned bits = 0;
+      for (std::size_t first = 0; first < kPointsAtOnce; first += hn::Lanes(d)) {
+        const Vector sum = squares(first, [&](const Tag d, std::size_t k, int axis) HWY_ATTR {
+          const Vector p = hn::Set(d, point[axis]);
+          return hn::Max(hn::Zero(d), hn::Max(hn::Sub(hn::LoadU(d, node.low[axis] + k), p),
+                                              hn::Sub(p, hn::LoadU(d, node.high[axis] + k))));
+        });
+        hn::Store(sum, d, squared + first);
+        const auto near = hn::Lt(sum, hn::Set(d, best));
+        bits |= bits_of(near) << first;
+        if constexpr (kOthers) passed = hn::Min(passed, hn::IfThenElse(near, nothing, sum));
+      }
       // The nearest box next; of the others most will be too far by the time they are looked at, so they are not sorted.
       std::size_t nearest = count;
       for (; bits != 0; bits &= bits - 1) {
@@ -69,23 +79,60 @@ bool search(const PointNode* nodes, const PointLeaf* leaves, const glm::vec3& po
       if (nearest < count) std::swap(waiting[nearest], waiting[count - 1]);
     } else {
       const PointLeaf& leaf = leaves[~at];
-      unsigned bits = below(best, squared, [&](const Tag d, std::size_t k, int axis) HWY_ATTR {
-        return hn::Sub(hn::LoadU(d, leaf.place[axis] + k), hn::Set(d, point[axis]));
-      });
-      for (; bits != 0; bits &= bits - 1) {
-        const auto k = static_cast<std::size_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
-        if (squared[k] >= best) continue;
-        best = squared[k];
-        index = leaf.index[k];
+      Vector sums[kPointsAtOnce / hn::MaxLanes(d)];
+      Vector least = hn::Set(d, best);
+      for (std::size_t first = 0; first < kPointsAtOnce; first += hn::Lanes(d)) {
+        Vector& sum = sums[first / hn::Lanes(d)];
+        sum = squares(first, [&](const Tag d, std::size_t k, int axis) HWY_ATTR {
+          return hn::Sub(hn::LoadU(d, leaf.place[axis] + k), hn::Set(d, point[axis]));
+        });
+        least = hn::Min(least, sum);
+      }
+      least = hn::MinOfLanes(d, least);
+      const bool nearer = hn::GetLane(least) < best;
+      if (nearer) {
+        if (kOthers && found) passed = hn::Min(passed, hn::Set(d, best));
+        best = hn::GetLane(least);
+        unsigned bits = 0;
+        for (std::size_t first = 0; first < kPointsAtOnce; first += hn::Lanes(d)) {
+          bits |= bits_of(hn::Eq(sums[first / hn::Lanes(d)], least)) << first;
+        }
+        const auto lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
+        index = leaf.index[lane];
         found = true;
+        if constexpr (kOthers) {
+          for (std::size_t first = 0; first < kPointsAtOnce; first += hn::Lanes(d)) {
+            const Vector lanes = hn::Iota(d, static_cast<float>(first));
+            const auto taken = hn::Eq(lanes, hn::Set(d, static_cast<float>(lane)));
+            passed = hn::Min(passed, hn::IfThenElse(taken, nothing, sums[first / hn::Lanes(d)]));
+          }
+        }
+      } else if constexpr (kOthers) {
+        for (const Vector& sum : sums) passed = hn::Min(passed, sum);
       }
     }
-    do {
-      if (count == 0) return found;
+    while (true) {
+      if (count == 0) {
+        if constexpr (kOthers) others = hn::GetLane(hn::MinOfLanes(d, passed));
+        return found;
+      }
       --count;
-    } while (waiting[count].squared >= best);
+      if (waiting[count].squared < best) break;
+      if constexpr (kOthers) passed = hn::Min(passed, hn::Set(d, waiting[count].squared));
+    }
     at = waiting[count].child;
   }
+}
+
+bool search(const PointNode* nodes, const PointLeaf* leaves, const glm::vec3& point, float& best,
+            std::uint32_t& index) {
+  float others = 0;
+  return search_any<false>(nodes, leaves, point, best, index, others);
+}
+
+bool search_with_others(const PointNode* nodes, const PointLeaf* leaves, const glm::vec3& point, float& best,
+                        std::uint32_t& index, float& others) {
+  return search_any<true>(nodes, leaves, point, best, index, others);
 }
 
 }  // namespace rejoin::mesh::detail::HWY_NAMESPACE
@@ -95,6 +142,7 @@ HWY_AFTER_NAMESPACE();
 namespace rejoin::mesh::detail {
 
 HWY_EXPORT(search);
+HWY_EXPORT(search_with_others);
 
 /// Splits points in halves along the longest side of their box until they fill one leaf at most.
 class PointTree::Builder {
@@ -191,6 +239,13 @@ PointTree::PointTree(std::span<const glm::vec3> points) {
 bool PointTree::nearest(const glm::vec3& point, float& squared, std::uint32_t& index) const {
   if (nodes_.empty()) return false;
   return HWY_DYNAMIC_DISPATCH(search)(nodes_.data(), leaves_.data(), point, squared, index);
+}
+
+bool PointTree::nearest(const glm::vec3& point, float& squared, std::uint32_t& index, float& others) const {
+  others = std::numeric_limits<float>::infinity();
+  if (nodes_.empty()) return false;
+  return HWY_DYNAMIC_DISPATCH(search_with_others)(nodes_.data(), leaves_.data(), point, squared, index,
+                                                  others);
 }
 
 }  // namespace rejoin::mesh::detail

@@ -35,6 +35,9 @@ class PointTree {
   /// \return whether there is one
   bool nearest(const glm::vec3& point, float& squared, std::uint32_t& index) const;
 
+  /// \param others  becomes a squared distance below which none of the other points lies, but for rounding
+  bool nearest(const glm::vec3& point, float& squared, std::uint32_t& index, float& others) const;
+
  private:
   class Builder;
 
