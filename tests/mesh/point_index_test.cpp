@@ -1,9 +1,12 @@
 #include "mesh/point_index.hpp"
 
 #include <gtest/gtest.h>
+#include <hwy/highway.h>
 
+#include <cstdint>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/random.hpp"
@@ -71,6 +74,34 @@ TEST(PointIndex, WhatIsKnownOfTheLastLookChangesNoAnswer) {
   }
   EXPECT_GT(known_hits, 500);  // searched anew at every step it is none
   EXPECT_GT(known_misses, 500);
+}
+
+TEST(PointIndex, EveryInstructionSetFindsTheSame) {
+  Random random(10);
+  std::vector<glm::vec3> points(2000);
+  for (glm::vec3& point : points) point = glm::round(16.0F * random_point(random, 1.0F)) / 16.0F;
+  const PointIndex index(points);
+  std::vector<glm::vec3> asked(1000);  // on a lattice, as the points: many are as near to several
+  for (glm::vec3& point : asked) point = glm::round(32.0F * random_point(random, 1.0F)) / 32.0F;
+  const auto answers = [&] {
+    std::vector<std::optional<std::pair<std::uint32_t, float>>> all;
+    for (const glm::vec3& point : asked) {
+      PointIndex::Known known;
+      all.push_back(index.nearest_within(point, 0.1F));
+      all.push_back(index.nearest_within(point, 0.1F, known));
+      all.emplace_back(std::pair(known.nearest.value_or(0), known.room));
+    }
+    return all;
+  };
+  const auto first = answers();
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    SCOPED_TRACE(hwy::TargetName(target));
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    EXPECT_EQ(answers(), first);
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
 TEST(PointIndex, NearestIsThatOfAllPointsForAnyNumberOfThem) {
