@@ -123,16 +123,24 @@ class Work {
     done_before_ = progress_.done;
   }
 
-  /// Once of each scan, as soon as sizes are known.
+  /// Once of each scan, as soon as sizes are known; of groups once those of all are.
   void warn_of_sizes() {
     std::vector<store::Fragment> known;
-    for (const auto& [name, fragment] : fragments_) known.push_back(fragment);
+    bool all_known = true;
+    for (const auto& [name, fragment] : fragments_) {
+      known.push_back(fragment);
+      all_known = all_known && (fragment.state != store::FragmentState::Waiting || copies_.count(name) != 0);
+    }
     OddSizes odd = odd_sizes(known);
     odd.fragments.erase(
         std::remove_if(odd.fragments.begin(), odd.fragments.end(),
                        [this](const auto& fragment) { return !doubted_.insert(fragment.name).second; }),
         odd.fragments.end());
     if (!odd.fragments.empty()) listener_.on_warning(told(odd), progress_);
+    if (!all_known || groups_looked_at_) return;
+    groups_looked_at_ = true;
+    const std::string groups = told_of_ten_times(known);
+    if (!groups.empty()) listener_.on_warning(groups, progress_);
   }
 
   /// Name, path and hash of the fragments of this shard, and of their copies.
@@ -266,6 +274,7 @@ class Work {
   std::map<std::string, store::Fragment> fragments_;
   std::set<std::pair<std::int64_t, std::int64_t>> done_;
   std::set<std::string> doubted_;  // names of which warn_of_sizes() has told
+  bool groups_looked_at_ = false;  // by warn_of_sizes()
   std::size_t done_before_ = 0;
   Progress progress_;
   Pace pace_;

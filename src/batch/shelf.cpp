@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/parallel.hpp"
+#include "match/units.hpp"
 #include "mesh/load.hpp"
 #include "mesh/save.hpp"
 
@@ -55,7 +56,11 @@ Outcome prepare_one(const store::Fragment& fragment, const fs::path& cache, cons
   try {
     outcome.prepared = std::make_unique<const match::Fragment>(load_prepared(fragment, cache, context));
     record.faces = static_cast<std::int64_t>(outcome.prepared->surface.faces.size());
-    record.diameter = outcome.prepared->diameter;
+    const match::Lengths lengths = match::lengths_of(*outcome.prepared);
+    record.diameter = lengths.diameter;
+    record.spacing = lengths.spacing;
+    record.noise = lengths.noise;
+    record.wall = lengths.wall;
     record.state = store::FragmentState::Ready;
     record.error.clear();
   } catch (const StoreError&) {

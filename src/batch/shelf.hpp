@@ -42,7 +42,7 @@ void gather_surfaces(const std::vector<std::filesystem::path>& caches, const std
 /// The prepared fragments that the pairs in hand need.
 class Shelf {
  public:
-  /// What became of a fragment (faces, diameter, state and error are filled in), and what was mended in its file where that was read.
+  /// What became of a fragment (faces, lengths, state and error are filled in), and what was mended in its file where that was read.
   /// Called from one thread at a time.
   using Told = std::function<void(const store::Fragment&, const std::vector<std::string>& warnings)>;
 

@@ -8,6 +8,20 @@
 #include "match/units.hpp"
 
 namespace rejoin::batch {
+namespace {
+
+/// "a.ply (diameter 12), b.ply (diameter 9)", the first few by name; empty of none.
+std::string named(const std::vector<store::Fragment>& fragments) {
+  constexpr std::size_t kNamed = 3;
+  std::string names;
+  for (std::size_t k = 0; k < std::min(kNamed, fragments.size()); ++k)
+    names +=
+        fmt::format("{}{} (diameter {:.3g})", k > 0 ? ", " : "", fragments[k].name, fragments[k].diameter);
+  if (fragments.size() > kNamed) names += fmt::format(" and {} more", fragments.size() - kNamed);
+  return names;
+}
+
+}  // namespace
 
 OddSizes odd_sizes(const std::vector<store::Fragment>& fragments) {
   std::vector<double> diameters;
@@ -22,15 +36,34 @@ OddSizes odd_sizes(const std::vector<store::Fragment>& fragments) {
 }
 
 std::string told(const OddSizes& odd) {
-  constexpr std::size_t kNamed = 3;
-  std::string names;
-  for (std::size_t k = 0; k < std::min(kNamed, odd.fragments.size()); ++k)
-    names += fmt::format("{}{} (diameter {:.3g})", k > 0 ? ", " : "", odd.fragments[k].name,
-                         odd.fragments[k].diameter);
-  if (names.empty()) return "";
-  if (odd.fragments.size() > kNamed) names += fmt::format(" and {} more", odd.fragments.size() - kNamed);
-  return fmt::format("{}: far from the median diameter of {:.3g}; are all scans in the same unit?", names,
-                     odd.median);
+  if (odd.fragments.empty()) return "";
+  return fmt::format("{}: far from the median diameter of {:.3g}; are all scans in the same unit?",
+                     named(odd.fragments), odd.median);
+}
+
+std::string told_of_ten_times(const std::vector<store::Fragment>& fragments) {
+  std::vector<store::Fragment> ready;
+  std::vector<match::Lengths> lengths;
+  for (const store::Fragment& fragment : fragments) {
+    if (fragment.state != store::FragmentState::Ready) continue;
+    ready.push_back(fragment);
+    lengths.push_back({fragment.diameter, fragment.spacing, fragment.noise, fragment.wall});
+  }
+  const auto groups = match::ten_times_apart(lengths);
+  if (!groups) return "";
+  const bool small = groups->small.size() <= groups->large.size();
+  std::vector<store::Fragment> odd;
+  for (const std::size_t k : small ? groups->small : groups->large) odd.push_back(ready[k]);
+  return fmt::format(
+      "{}: every length (diameter, points' spacing, noise, wall) is about {} of the others; are all scans in "
+      "the same unit, none in centimetres beside millimetres?",
+      named(odd), small ? "a tenth of those" : "ten times those");
+}
+
+std::vector<std::string> doubts_about_units(const std::vector<store::Fragment>& fragments) {
+  std::vector<std::string> doubts{told(odd_sizes(fragments)), told_of_ten_times(fragments)};
+  std::erase(doubts, "");
+  return doubts;
 }
 
 }  // namespace rejoin::batch

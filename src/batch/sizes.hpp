@@ -19,4 +19,11 @@ OddSizes odd_sizes(const std::vector<store::Fragment>& fragments);
 /// A line for the user; empty if there are none.
 std::string told(const OddSizes& odd);
 
+/// A line of scans of which every length is about ten times that of the others, or a tenth (match::ten_times_apart()), those that are
+/// fewer; empty if there are none.
+std::string told_of_ten_times(const std::vector<store::Fragment>& fragments);
+
+/// Both lines, without the empty ones.
+std::vector<std::string> doubts_about_units(const std::vector<store::Fragment>& fragments);
+
 }  // namespace rejoin::batch

@@ -114,8 +114,7 @@ AssembleInput read_run(const fs::path& folder, Console& console, const Context& 
   input.warnings =
       batch::told(batch::kept_ones(batch::changed_scans(fragments), fragments, folder / batch::kCacheName),
                   "assembled is");
-  const std::string sizes = batch::told(batch::odd_sizes(fragments));
-  if (!sizes.empty()) input.warnings.push_back(sizes);
+  for (std::string& doubt : batch::doubts_about_units(fragments)) input.warnings.push_back(std::move(doubt));
   const auto number = load_all(run, folder, input, console, context);
   if (input.fragments.size() < 2 && !context.cancelled())
     throw InputError(folder.string(), "fewer than two of its fragments can be used", "see the warnings");

@@ -67,9 +67,16 @@ std::string summary(const match::Result& result) {
 
 /// What to tell of sizes that no two pieces of one object have; empty: nothing.
 std::vector<std::string> doubts_about_units(const match::Fragment& a, const match::Fragment& b) {
-  if (!match::units_differ(a.diameter, b.diameter)) return {};
-  return {fmt::format("{} has a diameter of {:.3g}, {} of {:.3g}: are both in the same unit?", a.path,
-                      a.diameter, b.path, b.diameter)};
+  if (match::units_differ(a.diameter, b.diameter)) {
+    return {fmt::format("{} has a diameter of {:.3g}, {} of {:.3g}: are both in the same unit?", a.path,
+                        a.diameter, b.path, b.diameter)};
+  }
+  if (!match::ten_times_apart({match::lengths_of(a), match::lengths_of(b)})) return {};
+  const bool a_is_small = a.diameter < b.diameter;
+  return {
+      fmt::format("{}: every length (diameter, points' spacing, noise, wall) is about a tenth of those of "
+                  "{}; are both in the same unit, not one in centimetres and one in millimetres?",
+                  (a_is_small ? a : b).path, (a_is_small ? b : a).path)};
 }
 
 class MatchCommand final : public Command {

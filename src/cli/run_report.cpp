@@ -338,8 +338,7 @@ report::RunReport read_run(const std::filesystem::path& run, std::size_t listed,
   const std::vector<store::Fragment> fragments = database.fragments();
   const std::map<std::string, std::string> copies = store::copies(fragments);
   for (const auto& [copy, first] : copies) report.warnings.push_back(store::told_of_copy(copy, first));
-  const std::string sizes = batch::told(batch::odd_sizes(fragments));
-  if (!sizes.empty()) report.warnings.push_back(sizes);
+  for (std::string& doubt : batch::doubts_about_units(fragments)) report.warnings.push_back(std::move(doubt));
   for (const store::Fragment& stored : fragments) {
     numbers[stored.name] = report.fragments.size();
     report::ReportFragment fragment;

@@ -1,7 +1,12 @@
-/// Whether two scans can be in the same unit.
+/// Whether scans can be in the same unit.
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "match/match.hpp"
 
 namespace rejoin::match {
 
@@ -12,5 +17,29 @@ inline constexpr double kMostSizeRatio = 100.0;
 inline bool units_differ(double diameter_a, double diameter_b) {
   return std::max(diameter_a, diameter_b) > kMostSizeRatio * std::min(diameter_a, diameter_b);
 }
+
+/// What another unit changes alike in a scan, in its own unit; 0: not known, or has none.
+struct Lengths {
+  double diameter = 0;
+  double spacing = 0;  ///< of its points
+  double noise = 0;
+  double wall = 0;
+
+  bool operator==(const Lengths&) const = default;
+};
+
+Lengths lengths_of(const Fragment& fragment);
+
+/// Two groups of scans, by their numbers, ascending.
+struct TenTimes {
+  std::vector<std::size_t> small;
+  std::vector<std::size_t> large;
+};
+
+/// Scans as in centimetres beside scans as in millimetres: two groups between whose walls, or whose spacings, a gap lies, and of which
+/// the medians of all lengths differ by about ten times.  Small pieces of one box have the wall, the noise or the spacing of large
+/// ones.  Inches beside centimetres (2.54 times) cannot be told from other sherds.
+/// \return nullopt if there are no such groups; in a group may lack what has no wall
+std::optional<TenTimes> ten_times_apart(const std::vector<Lengths>& scans);
 
 }  // namespace rejoin::match

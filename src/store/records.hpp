@@ -35,7 +35,11 @@ struct Fragment {
   std::string path;     ///< where it was read, absolute
   std::string hash;     ///< of the file's content, hexadecimal
   std::int64_t faces = 0;
-  double diameter = 0;  ///< mesh units
+  double diameter =
+      0;  ///< mesh units, as the next three; these are 0 where not known (a run of an earlier build), or none
+  double spacing = 0;  ///< of its points
+  double noise = 0;
+  double wall = 0;  ///< thickness, of a sherd
   FragmentState state = FragmentState::Waiting;
   std::string error;  ///< one line, empty unless Bad
 

@@ -43,9 +43,10 @@ void write_parameters(SQLite::Database& database, const Parameters& parameters, 
 }
 
 void add_fragment(SQLite::Database& database, const Fragment& fragment) {
-  SQLite::Statement row(database,
-                        "INSERT INTO fragment (name, path, hash, faces, diameter, state, error) "
-                        "VALUES (?, ?, ?, 0, 0, 'waiting', '')");
+  SQLite::Statement row(
+      database,
+      "INSERT INTO fragment (name, path, hash, faces, diameter, state, error, spacing, noise, wall) "
+      "VALUES (?, ?, ?, 0, 0, 'waiting', '', 0, 0, 0)");
   row.bind(1, fragment.name);
   row.bind(2, fragment.path);
   row.bind(3, fragment.hash);
@@ -166,6 +167,7 @@ Run Run::write(const fs::path& folder) {
     database.exec("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON");
     detail::make_tables(database);
     detail::require_schema(database, access->path);
+    detail::bring_up_to_date(database);
   });
   return Run(std::move(access));
 }
@@ -266,13 +268,17 @@ void Run::forget_failures() {
 
 void Run::save(const Fragment& fragment) {
   detail::guarded(access_->path, [&] {
-    auto row =
-        access_->query("UPDATE fragment SET faces = ?, diameter = ?, state = ?, error = ? WHERE id = ?");
+    auto row = access_->query(
+        "UPDATE fragment SET faces = ?, diameter = ?, state = ?, error = ?, spacing = ?, noise = ?, wall = ? "
+        "WHERE id = ?");
     row.bind(1, fragment.faces);
     row.bind(2, fragment.diameter);
     row.bind(3, detail::name_of(fragment.state));
     row.bind(4, fragment.error);
-    row.bind(5, fragment.id);
+    row.bind(5, fragment.spacing);
+    row.bind(6, fragment.noise);
+    row.bind(7, fragment.wall);
+    row.bind(8, fragment.id);
     row.exec();
   });
 }

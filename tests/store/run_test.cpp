@@ -317,6 +317,28 @@ TEST_F(RunTest, NewerSchemaIsRefused) {
   }
 }
 
+TEST_F(RunTest, EarlierSchemaIsReadAndBroughtUpToDateWhenWritten) {
+  make_run();
+  const auto as_written_earlier = [this] {
+    SQLite::Database(folder_ / kFileName, SQLite::OPEN_READWRITE)
+        .exec(
+            "ALTER TABLE fragment DROP COLUMN spacing; ALTER TABLE fragment DROP COLUMN noise; "
+            "ALTER TABLE fragment DROP COLUMN wall; PRAGMA user_version = 1");
+  };
+  as_written_earlier();
+  EXPECT_EQ(store::Run::open(folder_).fragments().at(0).wall, 0);
+  EXPECT_EQ(store::Run::open(folder_).pairs().size(), 1U);
+
+  store::Run run = store::Run::write(folder_);
+  Fragment measured = run.fragments().at(0);
+  measured.spacing = 0.5;
+  measured.noise = 0.03;
+  measured.wall = 6.25;
+  run.save(measured);
+  EXPECT_EQ(run.pairs().size(), 1U);
+  EXPECT_EQ(store::Run::open(folder_).fragments().at(0), measured);
+}
+
 TEST_F(RunTest, DamagedDatabaseIsAnErrorNotACrash) {
   make_run();
   {

@@ -8,6 +8,8 @@
 #include <map>
 #include <string>
 
+#include "store/detail/schema.hpp"
+
 namespace rejoin::store::detail {
 namespace {
 
@@ -81,11 +83,17 @@ Fragment fragment_from(SQLite::Statement& row) {
   fragment.diameter = row.getColumn(5).getDouble();
   fragment.state = fragment_state(row.getColumn(6).getString());
   fragment.error = row.getColumn(7).getString();
+  fragment.spacing = row.getColumn(8).getDouble();
+  fragment.noise = row.getColumn(9).getDouble();
+  fragment.wall = row.getColumn(10).getDouble();
   return fragment;
 }
 
 std::vector<Fragment> all_fragments(SQLite::Database& database) {
-  SQLite::Statement rows(database, fmt::format("SELECT {} FROM fragment ORDER BY name", kFragmentColumns));
+  SQLite::Statement rows(database,
+                         fmt::format("SELECT id, name, path, hash, faces, diameter, state, error, {} "
+                                     "FROM fragment ORDER BY name",
+                                     has_lengths(database) ? "spacing, noise, wall" : "0, 0, 0"));
   std::vector<Fragment> list;
   while (rows.executeStep()) list.push_back(fragment_from(rows));
   return list;

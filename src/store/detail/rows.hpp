@@ -10,8 +10,6 @@
 
 namespace rejoin::store::detail {
 
-/// Columns of fragment_from(), in its order.
-inline constexpr const char* kFragmentColumns = "id, name, path, hash, faces, diameter, state, error";
 /// Columns of candidate_from(), in its order; bind_candidate() binds the same after a and b.
 inline constexpr const char* kCandidateColumns =
     "rank, score, m11, m12, m13, m14, m21, m22, m23, m24, m31, m32, m33, m34, m41, m42, m43, m44, facet_a, "

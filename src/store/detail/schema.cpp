@@ -29,7 +29,10 @@ CREATE TABLE fragment (
   faces INTEGER NOT NULL,
   diameter REAL NOT NULL,
   state TEXT NOT NULL CHECK (state IN ('waiting', 'ready', 'bad')),
-  error TEXT NOT NULL
+  error TEXT NOT NULL,
+  spacing REAL NOT NULL DEFAULT 0,
+  noise REAL NOT NULL DEFAULT 0,
+  wall REAL NOT NULL DEFAULT 0
 );
 CREATE TABLE pair (
   a INTEGER NOT NULL REFERENCES fragment ON DELETE CASCADE,
@@ -69,6 +72,14 @@ INSERT INTO run VALUES (1, '', '{}', 1, '');
 int pragma(SQLite::Database& database, const char* name) {
   return database.execAndGet(fmt::format("PRAGMA {}", name)).getInt();
 }
+
+/// From schema 1 to 2.
+constexpr const char* kAddLengths = R"sql(
+ALTER TABLE fragment ADD COLUMN spacing REAL NOT NULL DEFAULT 0;
+ALTER TABLE fragment ADD COLUMN noise REAL NOT NULL DEFAULT 0;
+ALTER TABLE fragment ADD COLUMN wall REAL NOT NULL DEFAULT 0;
+PRAGMA user_version = 2;
+)sql";
 
 constexpr const char* kGiveARun = "give the folder that rejoin batch wrote";
 
@@ -119,10 +130,22 @@ void require_schema(SQLite::Database& database, const std::string& path) {
     throw StoreError(path, "is no database of a run", kGiveARun);
   }
   const int version = pragma(database, "user_version");
-  if (version != kSchemaVersion) {
-    throw StoreError(path, fmt::format("has schema {}, this program knows {}", version, kSchemaVersion),
-                     "use the rejoin that wrote it, or run rejoin batch into a new folder");
+  if (version < kOldestSchema || version > kSchemaVersion) {
+    throw StoreError(
+        path,
+        fmt::format("has schema {}, this program knows {} and {}", version, kOldestSchema, kSchemaVersion),
+        "use the rejoin that wrote it, or run rejoin batch into a new folder");
   }
+}
+
+void bring_up_to_date(SQLite::Database& database) {
+  SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+  if (!has_lengths(database)) database.exec(kAddLengths);
+  transaction.commit();
+}
+
+bool has_lengths(SQLite::Database& database) {
+  return pragma(database, "user_version") >= 2;
 }
 
 std::filesystem::path database_file(const std::filesystem::path& folder) {

@@ -1,0 +1,64 @@
+#include "match/units.hpp"
+
+#include <gtest/gtest.h>
+
+namespace rejoin::match {
+namespace {
+
+using Group = std::vector<std::size_t>;
+
+Lengths in_unit(double factor, Lengths scan) {
+  return {factor * scan.diameter, factor * scan.spacing, factor * scan.noise, factor * scan.wall};
+}
+
+/// As those of a box of pottery, in millimetres: sherds of several sizes, one point spacing, walls of a foot and of a rim.
+std::vector<Lengths> sherds() {
+  return {
+      {120, 0.5, 0.03, 9}, {45, 0.5, 0.02, 6}, {30, 0.4, 0.03, 4.5}, {80, 0.6, 0.03, 5}, {150, 0.5, 0.04, 7}};
+}
+
+TEST(Units, CentimetresBesideMillimetresAreTwoGroups) {
+  std::vector<Lengths> box = sherds();
+  box[1] = in_unit(0.1, box[1]);
+  box[4] = in_unit(0.1, box[4]);
+  const auto groups = ten_times_apart(box);
+  ASSERT_TRUE(groups);
+  EXPECT_EQ(groups->small, (Group{1, 4}));
+  EXPECT_EQ(groups->large, (Group{0, 2, 3}));
+  EXPECT_FALSE(ten_times_apart(sherds()));
+}
+
+TEST(Units, SolidPiecesAreKnownBySpacingAndNoise) {
+  std::vector<Lengths> box{{120, 0.5, 0.03, 0}, {60, 0.5, 0.02, 0}, {30, 0.4, 0.03, 0}};
+  EXPECT_FALSE(ten_times_apart(box));
+  box[0] = in_unit(0.1, box[0]);
+  const auto groups = ten_times_apart(box);
+  ASSERT_TRUE(groups);
+  EXPECT_EQ(groups->small, Group{0});
+}
+
+TEST(Units, ChipsOfABoxAreInItsUnit) {
+  std::vector<Lengths> box = sherds();
+  box.push_back({9, 0.5, 0.03, 0.6});  // a flake that the scanner saw as finely as the rest
+  EXPECT_FALSE(ten_times_apart(box));
+  box.back() = {9, 0.05, 0.003, 5};  // seen more finely, of the same wall
+  EXPECT_FALSE(ten_times_apart(box));
+  box.back() = {9, 0.05, 0.03, 0.6};  // more points, the same scanner's noise
+  EXPECT_FALSE(ten_times_apart(box));
+  EXPECT_FALSE(ten_times_apart({{100, 0.5, 0.03, 0}, {9, 0.05, 0.03, 0}}));
+}
+
+TEST(Units, InchesBesideCentimetresCannotBeTold) {
+  std::vector<Lengths> box = sherds();
+  box[1] = in_unit(1 / 2.54, box[1]);
+  EXPECT_FALSE(ten_times_apart(box));
+}
+
+TEST(Units, WhatIsNotKnownSaysNothing) {
+  EXPECT_FALSE(ten_times_apart({}));
+  EXPECT_FALSE(ten_times_apart({{100, 0, 0, 0}, {10, 0, 0, 0}}));
+  EXPECT_FALSE(ten_times_apart({{100, 0.5, 0.03, 6}, {10, 0.05, 0.003, 0}}));  // one is no sherd
+}
+
+}  // namespace
+}  // namespace rejoin::match
