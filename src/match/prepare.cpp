@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "match/match.hpp"
 #include "match/pose_space.hpp"
+#include "mesh/bodies.hpp"
 #include "mesh/noise.hpp"
 #include "mesh/surface.hpp"
 
@@ -42,6 +43,29 @@ void doubt_scans_from_one_side(Fragment& fragment) {
       "solid piece: if it is a sherd, its wall may be joined as a break; scan the other side, too, "
       "or paint the breaks (rejoin facets)",
       fragment.path, 100.0 * unbacked));
+}
+
+/// Such a scan is matched as one piece.
+void doubt_several_bodies(Fragment& fragment) {
+  const std::vector<double> shares = mesh::bodies(fragment.surface);
+  if (shares.size() < 2) return;
+  std::string list;
+  for (const double share : shares)
+    list += fmt::format("{}{:.0f} %", list.empty() ? "" : ", ", 100.0 * share);
+  fragment.warnings.push_back(fmt::format(
+      "{}: holds {} bodies side by side ({} of its area) and is matched as one piece: if they are "
+      "several, give each a file of its own (split it into connected components in the scanning "
+      "software or MeshLab)",
+      fragment.path, shares.size(), list));
+}
+
+void doubt_table(Fragment& fragment) {
+  const double share = mesh::table(fragment.surface);
+  if (share == 0) return;
+  fragment.warnings.push_back(fmt::format(
+      "{}: {:.0f} % of it is a plane, as a table that was scanned with the piece is; it hides the breaks: "
+      "remove it in the scanning software",
+      fragment.path, 100.0 * share));
 }
 
 }  // namespace
@@ -81,6 +105,8 @@ Fragment prepare(std::string path, mesh::Mesh scan, const Context& context) {
   fragment.sample_of_face = mesh::sample_of_faces(fragment.facets, fragment.coarse);
   doubt_coarse_walls(fragment);
   doubt_scans_from_one_side(fragment);
+  doubt_several_bodies(fragment);
+  doubt_table(fragment);
   clock.lap("facets");
   context.report("prepare " + fragment.path, 1.0);
   return fragment;

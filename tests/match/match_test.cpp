@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "core/parallel.hpp"
@@ -49,6 +50,32 @@ TEST(Prepare, TellsOfAScanFromOneSideThatIsTakenForASolidPiece) {
   const Fragment cut = prepare("cut", seen, Context{});
   ASSERT_EQ(cut.warnings.size(), 1U);
   EXPECT_NE(cut.warnings[0].find("cut: nothing lies behind "), std::string::npos) << cut.warnings[0];
+}
+
+TEST(Prepare, TellsOfTwoBodiesAndOfATable) {
+  const mesh::Mesh block = testing::half_block(false, 48);
+  const mesh::Box box = mesh::bounds(block);
+  mesh::Mesh two = block;
+  const auto first = static_cast<std::uint32_t>(block.vertices.size());
+  for (const glm::vec3& v : block.vertices) two.vertices.push_back(v + 1.2F * (box.high - box.low));
+  for (const glm::uvec3& face : block.faces) two.faces.push_back(face + first);
+  const Fragment several = prepare("two", two, Context{});
+  ASSERT_EQ(several.warnings.size(), 1U);
+  EXPECT_EQ(several.warnings[0].find("two: holds 2 bodies side by side (50 %, 50 % of its area)"), 0U)
+      << several.warnings[0];
+
+  mesh::Mesh standing = block;
+  const float far = 2.0F * glm::distance(box.low, box.high);
+  for (const glm::vec2& corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)})
+    standing.vertices.emplace_back(far * corner, box.low.z);
+  standing.faces.emplace_back(first, first + 1, first + 2);
+  standing.faces.emplace_back(first, first + 2, first + 3);
+  const Fragment table = prepare("table", standing, Context{});
+  EXPECT_EQ(std::ranges::count_if(table.warnings,
+                                  [](const std::string& text) {
+                                    return text.find("is a plane, as a table") != std::string::npos;
+                                  }),
+            1);
 }
 
 TEST(Match, PlainBlockDoesNotJoin) {

@@ -98,20 +98,6 @@ TEST(Clean, KeepsPatchesNearThePieceAndLargePartsAnywhere) {
   EXPECT_TRUE(through_ply(two).warnings.empty());
 }
 
-TEST(Clean, TellsATableThatWasScannedWithThePiece) {
-  Mesh scene = test::icosphere(50, 3);
-  const auto v = static_cast<std::uint32_t>(scene.vertices.size());
-  for (const glm::vec2 corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)})
-    scene.vertices.emplace_back(150.0F * corner, -50.5F);
-  scene.faces.emplace_back(v, v + 1, v + 2);
-  scene.faces.emplace_back(v, v + 2, v + 3);
-  const Loaded loaded = through_ply(scene);
-  EXPECT_EQ(loaded.mesh.faces.size(), scene.faces.size());
-  ASSERT_EQ(loaded.warnings.size(), 1U);
-  EXPECT_NE(loaded.warnings[0].find("a table"), std::string::npos) << loaded.warnings[0];
-  EXPECT_TRUE(through_ply(test::box({200, 100, 5}, 4)).warnings.empty());
-}
-
 TEST(Clean, KeepsASurfaceOfManySmallPatches) {
   Mesh patches;
   for (int k = 0; k < 150; ++k) add_strip(patches, {100.0F * static_cast<float>(k), 0, 0}, 1, 2);

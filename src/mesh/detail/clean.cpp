@@ -215,12 +215,6 @@ void clean_faces(Loaded& loaded, const std::string& name) {
                     "software)",
                     name, specks.faces, before, counted(specks.parts, "small part")));
   }
-  if (specks.table) {
-    loaded.warnings.push_back(
-        name +
-        ": a large part of it is a plane, as a table that was scanned with the piece is; such a "
-        "part hides the breaks: remove it in the scanning software");
-  }
   drop_unused_vertices(mesh);
   if (const std::size_t backs = drop_backs(mesh); backs > 0) {
     loaded.warnings.push_back(

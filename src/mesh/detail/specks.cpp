@@ -9,79 +9,14 @@
 #include "core/components.hpp"
 #include "core/median.hpp"
 #include "core/parallel.hpp"
+#include "mesh/detail/parts.hpp"
 
 namespace rejoin::mesh::detail {
 namespace {
 
 constexpr double kSmall = 0.01;  // of the whole area, or of all points
 constexpr double kApart = 0.1;   // of the diagonal of the larger parts' box
-constexpr double kTable = 0.3;   // of the whole area, at least
-constexpr double kFlat = 0.995;  // of a part's area that is left of it when looked at from the front
 constexpr float kSparse = 2.5F;  // times the reach that is usual among its neighbours
-
-/// Box and weight of a part; of nothing at first.
-struct Part {
-  glm::dvec3 low{std::numeric_limits<double>::infinity()};
-  glm::dvec3 high{-std::numeric_limits<double>::infinity()};
-  double weight = 0;       ///< area, or number of points
-  glm::dvec3 facing{0.0};  ///< its faces' area vectors
-
-  void add(const Part& other) {
-    low = glm::min(low, other.low);
-    high = glm::max(high, other.high);
-    weight += other.weight;
-    facing += other.facing;
-  }
-  double distance(const Part& other) const {
-    return glm::length(glm::max(glm::dvec3(0.0), glm::max(other.low - high, low - other.high)));
-  }
-};
-
-/// Numbers parts from 0 in the order in which their elements are asked for.
-class PartNumbers {
- public:
-  PartNumbers(Components& components, std::size_t elements)
-      : components_(components), number_(elements, kNone) {}
-
-  std::uint32_t of(std::uint32_t element) {
-    std::uint32_t& part = number_[components_.of(element)];
-    if (part == kNone) part = count_++;
-    return part;
-  }
-
- private:
-  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-  Components& components_;
-  std::vector<std::uint32_t> number_;
-  std::uint32_t count_ = 0;
-};
-
-std::vector<std::uint32_t> part_of_faces(const Mesh& mesh) {
-  Components components(mesh.vertices.size());
-  for (const glm::uvec3& face : mesh.faces) {
-    components.unite(face.x, face.y);
-    components.unite(face.x, face.z);
-  }
-  PartNumbers numbers(components, mesh.vertices.size());
-  std::vector<std::uint32_t> result;
-  result.reserve(mesh.faces.size());
-  for (const glm::uvec3& face : mesh.faces) result.push_back(numbers.of(face.x));
-  return result;
-}
-
-std::vector<Part> measured(const Mesh& mesh, const std::vector<std::uint32_t>& part_of_face) {
-  std::vector<Part> parts(*std::max_element(part_of_face.begin(), part_of_face.end()) + 1);
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    const glm::uvec3& face = mesh.faces[f];
-    const glm::dvec3 a(mesh.vertices[face.x]);
-    const glm::dvec3 b(mesh.vertices[face.y]);
-    const glm::dvec3 c(mesh.vertices[face.z]);
-    const glm::dvec3 facing = 0.5 * glm::cross(b - a, c - a);
-    parts[part_of_face[f]].add(
-        {glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)), glm::length(facing), facing});
-  }
-  return parts;
-}
 
 /// Which parts are specks.
 std::vector<bool> specks_among(const std::vector<Part>& parts) {
@@ -109,12 +44,6 @@ std::vector<bool> specks_among(const std::vector<Part>& parts) {
     if (!result[k]) kept.add(parts[k]);
   }
   return result;
-}
-
-/// Whether a part is a plane that takes up much of the whole, beside others.
-bool is_table(const Part& part, double all) {
-  return part.weight > kTable * all && part.weight < (1.0 - kSmall) * all &&
-         glm::length(part.facing) > kFlat * part.weight;
 }
 
 /// Distance of every point from the furthest of its neighbours.
@@ -159,13 +88,9 @@ void drop_points(Mesh& cloud, const std::vector<bool>& dropped) {
 
 Specks drop_specks(Mesh& mesh) {
   const std::vector<std::uint32_t> part_of_face = part_of_faces(mesh);
-  const std::vector<Part> parts = measured(mesh, part_of_face);
+  const std::vector<Part> parts = measured_parts(mesh, part_of_face);
   const std::vector<bool> dropped = specks_among(parts);
   Specks specks;
-  double all = 0;
-  for (const Part& part : parts) all += part.weight;
-  specks.table =
-      std::any_of(parts.begin(), parts.end(), [&](const Part& part) { return is_table(part, all); });
   specks.parts = static_cast<std::size_t>(std::count(dropped.begin(), dropped.end(), true));
   if (specks.parts == 0) return specks;
   std::size_t kept = 0;

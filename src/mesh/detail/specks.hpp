@@ -11,7 +11,6 @@ namespace rejoin::mesh::detail {
 struct Specks {
   std::size_t parts = 0;
   std::size_t faces = 0;
-  bool table = false;  ///< a part is a plane and has more than 0.3 of the area, beside others: it is kept
 };
 
 /// Drops parts of the surface (faces that share vertices) that are small and lie clearly apart: each has less than 1 % of the

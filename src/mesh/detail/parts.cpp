@@ -1,0 +1,34 @@
+#include "mesh/detail/parts.hpp"
+
+#include <algorithm>
+
+namespace rejoin::mesh::detail {
+
+std::vector<std::uint32_t> part_of_faces(const Mesh& mesh) {
+  Components components(mesh.vertices.size());
+  for (const glm::uvec3& face : mesh.faces) {
+    components.unite(face.x, face.y);
+    components.unite(face.x, face.z);
+  }
+  PartNumbers numbers(components, mesh.vertices.size());
+  std::vector<std::uint32_t> result;
+  result.reserve(mesh.faces.size());
+  for (const glm::uvec3& face : mesh.faces) result.push_back(numbers.of(face.x));
+  return result;
+}
+
+std::vector<Part> measured_parts(const Mesh& mesh, const std::vector<std::uint32_t>& part_of_face) {
+  std::vector<Part> parts(*std::max_element(part_of_face.begin(), part_of_face.end()) + 1);
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const glm::uvec3& face = mesh.faces[f];
+    const glm::dvec3 a(mesh.vertices[face.x]);
+    const glm::dvec3 b(mesh.vertices[face.y]);
+    const glm::dvec3 c(mesh.vertices[face.z]);
+    const glm::dvec3 facing = 0.5 * glm::cross(b - a, c - a);
+    parts[part_of_face[f]].add(
+        {glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)), glm::length(facing), facing});
+  }
+  return parts;
+}
+
+}  // namespace rejoin::mesh::detail
