@@ -5,6 +5,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 
 #include "core/files.hpp"
 #include "core/words.hpp"
@@ -61,10 +62,10 @@ Whole survey(const std::vector<fs::path>& runs) {
     const Run run = Run::open(folder);
     if (&folder == &runs.front()) whole.parameters = run.parameters();
     if (run.parameters() != whole.parameters) {
-      throw StoreError(
-          folder.string(),
-          fmt::format("was made with other parameters or by another version than {}", runs.front().string()),
-          "run its shard again like the others");
+      throw StoreError(folder.string(),
+                       fmt::format("was made with other parameters or by another version or build than {}",
+                                   runs.front().string()),
+                       "run its shard again like the others");
     }
     for (const Fragment& fragment : run.fragments()) {
       Fragment& known = whole.fragments.try_emplace(fragment.name, fragment).first->second;
@@ -147,18 +148,37 @@ void put_in_place(const fs::path& made, const fs::path& output) {
   });
 }
 
+/// The folder beside the output in which the new database is made.
+class PartFolder {
+ public:
+  explicit PartFolder(fs::path path) : path_(std::move(path)) {
+    remove();
+    std::error_code ignored;
+    fs::create_directories(path_, ignored);
+  }
+  ~PartFolder() { remove(); }
+  PartFolder(const PartFolder&) = delete;
+  PartFolder& operator=(const PartFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  void remove() const {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+
+  fs::path path_;
+};
+
 }  // namespace
 
 Merged merge(const std::vector<fs::path>& runs, const fs::path& output) {
   const Whole whole = survey(runs);
   require_writable_folder(output);
   const detail::WriteLock lock((output / detail::kLockName).string());
-  const fs::path part = output / "merge.part";
-  std::error_code ignored;
-  fs::remove_all(part, ignored);
-  fs::create_directories(part, ignored);
-  make_fragments(part, whole);
-  const std::string path = (part / kFileName).string();
+  const PartFolder part(output / "merge.part");
+  make_fragments(part.path(), whole);
+  const std::string path = (part.path() / kFileName).string();
   const Merged merged = detail::guarded(path, [&] {
     SQLite::Database database(path, SQLite::OPEN_READWRITE | SQLite::OPEN_URI);
     database.exec("PRAGMA foreign_keys = ON");
@@ -168,7 +188,6 @@ Merged merge(const std::vector<fs::path>& runs, const fs::path& output) {
     return count(database);
   });
   put_in_place(path, output);
-  fs::remove_all(part, ignored);
   return merged;
 }
 

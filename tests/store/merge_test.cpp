@@ -122,6 +122,7 @@ TEST_F(Merge, WholeReplacesWhatWasThereButLosesNoPair) {
   EXPECT_EQ(store::Run::open(output()).pairs().size(), 2U);
   EXPECT_FALSE(fs::exists(output() / "merge.part"));
   EXPECT_THROW(merge({y}, output()), StoreError);
+  EXPECT_FALSE(fs::exists(output() / "merge.part"));
   EXPECT_EQ(store::Run::open(output()).pairs().size(), 2U);
 }
 
