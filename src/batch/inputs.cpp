@@ -85,7 +85,7 @@ std::vector<std::string> find_scans(const fs::path& folder) {
                          ? "give a folder of ply, obj, stl, off, gltf, glb, drc, xyz or pts files"
                          : "there are scans in folders below: move those up, or give one of these");
   }
-  for (const std::string& name : names) require_utf8_name(folder / name);
+  for (const std::string& name : names) require_tellable_name(folder / name);
   std::sort(names.begin(), names.end());
   return names;
 }

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kLeast = 4;  // faces or points; fewer enclose nothing
 
 mesh::Loaded load_scan(const std::string& path, Console& console, mesh::Weld weld = mesh::Weld::Places) {
-  require_utf8_name(path);
+  require_tellable_name(path);
   mesh::Loaded loaded = mesh::load(path, weld);
   for (const std::string& warning : loaded.warnings) console.warning(warning);
   const bool cloud = loaded.mesh.is_cloud();

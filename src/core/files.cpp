@@ -131,10 +131,16 @@ void require_writable_file(const fs::path& name) {
   fs::remove(probe, ignored);
 }
 
-void require_utf8_name(const fs::path& path) {
-  if (is_utf8(path.filename().string())) return;
-  throw InputError(valid_utf8(path.string()), "has a name that is no UTF-8, so that no result can tell it",
-                   "rename the file (convmv renames whole folders)");
+void require_tellable_name(const fs::path& path) {
+  const std::string name = path.filename().string();
+  if (!is_utf8(name)) {
+    throw InputError(valid_utf8(path.string()), "has a name that is no UTF-8, so that no result can tell it",
+                     "rename the file (convmv renames whole folders)");
+  }
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+  if (std::ranges::any_of(name, is_control))
+    throw InputError(path.string(), "has a line end, tab or other control character in its name",
+                     "rename the file");
 }
 
 void require_writable_folder(const fs::path& folder) {

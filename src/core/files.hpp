@@ -26,9 +26,10 @@ std::string read_file(const std::filesystem::path& path);
 /// \throws IoError it cannot
 void require_writable_file(const std::filesystem::path& path);
 
-/// For inputs whose names go into results: JSON, models and pages must be UTF-8, and two names could not be told apart there.
-/// \throws InputError the file's own name, without its folder, is no UTF-8
-void require_utf8_name(const std::filesystem::path& path);
+/// For inputs whose names go into results: JSON, models and pages must be UTF-8, where two names could not be told apart; a line of a
+/// table ends at a line end, and XML has no control characters.
+/// \throws InputError the file's own name, without its folder, is no UTF-8 or holds a control character
+void require_tellable_name(const std::filesystem::path& path);
 
 /// Makes the folder with its parents, and finds out whether files can be made in it.
 /// \throws IoError it cannot be made, is no folder, or refuses files

@@ -275,7 +275,7 @@ bool add_file(const fs::path& file, const ExtractOptions& options, PieceSet& all
   if (fs::is_other(file, ignored))  // a pipe would be waited for
     return unusable(file.string() + ": is a pipe or device; take it out of the folder");
   try {
-    require_utf8_name(file);
+    require_tellable_name(file);
     PieceSet set = read_pieces(file.string(), options);
     std::move(set.pieces.begin(), set.pieces.end(), std::back_inserter(all.pieces));
     std::move(set.notes.begin(), set.notes.end(), std::back_inserter(all.notes));

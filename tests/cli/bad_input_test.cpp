@@ -56,10 +56,19 @@ TEST(HostileName, NeitherSteersTheTerminalNorMakesLines) {
   const std::string name = folder / "a\033[2J\nrejoin: done\r.ply";
   expect_failure(run({"match", name, folder / "missing.ply"}), "a?[2J?rejoin: done?.ply");
   write_file(name, kTetrahedron);
-  const Finished finished = run({"facets", name, "--json", name + ".json"});
+  expect_failure(run({"facets", name}), "a?[2J?rejoin: done?.ply: has a line end");
+  const std::string good = folder / "a.ply";
+  write_file(good, kTetrahedron);
+  const Finished finished = run({"facets", good, "--json", name + ".json"});
   EXPECT_EQ(finished.exit_code, 0) << finished.err;
   EXPECT_NE(finished.out.find("a?[2J"), std::string::npos) << finished.out;
   for (const char c : {'\033', '\r'}) EXPECT_EQ(finished.out.find(c), std::string::npos) << finished.out;
+}
+
+TEST(HostileName, ThatBreaksALineIsRefusedInAFolderOfScans) {
+  const TemporaryFolder folder;
+  for (const char* name : {"a.ply", "b\nc.ply"}) write_file(folder / name, kTetrahedron);
+  expect_failure(run({"batch", folder / "", "--out", folder / "run"}), "b?c.ply: has a line end");
 }
 
 TEST(HostileName, ThatIsNoUtf8IsRefused) {
