@@ -15,6 +15,7 @@
 #include "batch/sizes.hpp"
 #include "cli/batch_listeners.hpp"
 #include "cli/fragment.hpp"
+#include "cli/interrupt.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "store/run.hpp"
@@ -153,7 +154,7 @@ fs::path make_passing_folder() {
 /// A folder for a run that nobody wants to keep.
 class PassingFolder {
  public:
-  PassingFolder() : path_(make_passing_folder()) {}
+  PassingFolder() : path_(make_passing_folder()), killed_(path_) {}
   ~PassingFolder() {
     std::error_code ignored;
     fs::remove_all(path_, ignored);
@@ -164,6 +165,7 @@ class PassingFolder {
 
  private:
   fs::path path_;
+  RemoveWhenKilled killed_;
 };
 
 AssembleInput match_and_read(const fs::path& scans, const fs::path& run, Console& console,

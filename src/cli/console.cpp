@@ -42,6 +42,7 @@ void Console::wrote(const std::filesystem::path& file) {
 }
 
 void Console::warning(std::string_view text) {
+  if (!warned_.emplace(text).second) return;
   end_progress();
   fmt::print(stderr, "rejoin: warning: {}\n", harmless_line(text));
 }

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -32,6 +33,7 @@ class Console {
   /// The line that tells an output; nothing of one that is the standard output itself.
   void wrote(const std::filesystem::path& file);
 
+  /// A text is told once, however often it comes.
   void warning(std::string_view text);
 
   /// A line for --verbose.
@@ -44,6 +46,7 @@ class Console {
   void end_progress();
 
  private:
+  std::set<std::string> warned_;
   bool terminal_;
   bool bar_drawn_ = false;
   std::chrono::steady_clock::time_point last_drawn_;

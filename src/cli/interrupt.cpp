@@ -3,7 +3,11 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
+#include <climits>
+#include <ctime>
+#include <string>
 
 #include "cli/command.hpp"
 
@@ -13,16 +17,34 @@ namespace {
 // A signal handler can reach nothing but globals.
 std::atomic<Context*> g_context{nullptr};
 std::atomic<bool> g_nothing_to_save{false};
+std::atomic<bool> g_has_folder{false};
+std::array<char, PATH_MAX> g_folder{};  // ends with a zero
 static_assert(std::atomic<Context*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
-void on_interrupt(int /*signal*/) {
+/// Once this process has ended and no thread of it writes there any more; by what may be called in a signal handler.
+void remove_folder_afterwards() {
+  if (!g_has_folder.load()) return;
+  const pid_t self = getpid();
+  if (_Fork() != 0) return;
+  constexpr timespec kPause{0, 10'000'000};
+  while (getppid() == self) nanosleep(&kPause, nullptr);
+  execl("/bin/rm", "rm", "-rf", "--", g_folder.data(), nullptr);
+  _exit(kFailure);
+}
+
+void on_interrupt(int signal_number) {
+  Context* context = g_context.load();
   if (g_nothing_to_save.load()) {
     constexpr char kText[] = "\nrejoin: interrupted\n";
     const ssize_t written = write(STDERR_FILENO, kText, sizeof kText - 1);
     static_cast<void>(written);  // nothing else can be done about it here
+    remove_folder_afterwards();
     _exit(kInterrupted);
   }
-  if (Context* context = g_context.load()) context->cancel();
+  if (context != nullptr && !context->cancelled()) return context->cancel();
+  remove_folder_afterwards();
+  signal(signal_number, SIG_DFL);
+  raise(signal_number);  // once the handler is left
 }
 
 }  // namespace
@@ -31,7 +53,6 @@ Interrupt::Interrupt(Context& context) {
   g_context = &context;
   struct sigaction action = {};
   action.sa_handler = on_interrupt;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);  // the second Ctrl-C finds the default: die
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
 }
@@ -47,6 +68,18 @@ NothingToSave::NothingToSave() {
 
 NothingToSave::~NothingToSave() {
   g_nothing_to_save = false;
+}
+
+RemoveWhenKilled::RemoveWhenKilled(const std::filesystem::path& folder) {
+  const std::string name = folder.string();
+  if (name.size() >= g_folder.size()) return;
+  name.copy(g_folder.data(), name.size());
+  g_folder[name.size()] = '\0';
+  g_has_folder = true;
+}
+
+RemoveWhenKilled::~RemoveWhenKilled() {
+  g_has_folder = false;
 }
 
 }  // namespace rejoin::cli

@@ -1,6 +1,8 @@
 /// Ctrl-C.
 #pragma once
 
+#include <filesystem>
+
 #include "core/context.hpp"
 
 namespace rejoin::cli {
@@ -23,6 +25,15 @@ class NothingToSave {
   ~NothingToSave();
   NothingToSave(const NothingToSave&) = delete;
   NothingToSave& operator=(const NothingToSave&) = delete;
+};
+
+/// Names a folder that is to go, too, where Ctrl-C ends the process at once; one at a time.
+class RemoveWhenKilled {
+ public:
+  explicit RemoveWhenKilled(const std::filesystem::path& folder);
+  ~RemoveWhenKilled();
+  RemoveWhenKilled(const RemoveWhenKilled&) = delete;
+  RemoveWhenKilled& operator=(const RemoveWhenKilled&) = delete;
 };
 
 }  // namespace rejoin::cli

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -119,7 +120,9 @@ TEST_F(BrokenBall, AssembleOfAFolderTellsAScanThatCannotBeUsedByItsExitCode) {
   write_file(scans_ + "/notes.ply", "Dear diary,\n");
   const Finished finished = run({"assemble", scans_, "--json", json_});
   EXPECT_EQ(finished.exit_code, 1);
-  EXPECT_NE(finished.err.find("notes.ply"), std::string::npos) << finished.err;
+  const std::size_t told = finished.err.find("notes.ply");
+  EXPECT_NE(told, std::string::npos) << finished.err;
+  EXPECT_EQ(finished.err.find("notes.ply", told + 1), std::string::npos) << finished.err;
   const ordered_json result = ordered_json::parse(read_file(json_));
   ASSERT_EQ(result["unplaced"].size(), 1U) << "the rest is put together";
   EXPECT_EQ(result["unplaced"][0], "notes.ply");
@@ -162,6 +165,20 @@ TEST_F(BrokenBall, RunThatNobodyKeepsLeavesNothingAndNeedsAFolderForTheTime) {
   EXPECT_EQ(refused.exit_code, 1);
   EXPECT_TRUE(is_one_line(refused.err)) << refused.err;
   EXPECT_NE(refused.err.find("nosuch: cannot hold the run"), std::string::npos) << refused.err;
+}
+
+TEST_F(BrokenBall, RunThatNobodyKeepsLeavesNothingWhenItIsKilledByCtrlC) {
+  std::filesystem::create_directory(folder_ / "tmp");
+  Running running({"assemble", scans_, "--json", json_, "--verbose"}, {"TMPDIR=" + (folder_ / "tmp")});
+  ASSERT_TRUE(running.wait_for_stderr("pairs are done already"));
+  EXPECT_FALSE(std::filesystem::is_empty(folder_ / "tmp"));
+  // Signals that are not handled yet are one: many make sure that a second one comes.
+  for (int k = 0; k < 200; ++k) {
+    running.interrupt();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(running.finish().exit_code, 130);
+  EXPECT_TRUE(std::filesystem::is_empty(folder_ / "tmp"));
 }
 
 TEST_F(BrokenBall, WishesThatCannotBeReadAreRefusedBeforeAnyPairIsMatched) {
