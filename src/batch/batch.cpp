@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "batch/inputs.hpp"
+#include "batch/matcher_source.hpp"
 #include "batch/pace.hpp"
 #include "batch/search_pair.hpp"
 #include "batch/shelf.hpp"
@@ -84,7 +85,7 @@ class Work {
   /// Brings the database to the inputs and options of this run.
   void begin() {
     std::vector<store::Fragment> wanted = describe_inputs();
-    const store::Parameters parameters{kVersion, parameters_json(options_.match), options_.match.seed};
+    const store::Parameters parameters{version(), parameters_json(options_.match), options_.match.seed};
     const Shard& shard = options_.shard;
     const auto forgotten = run_.begin(parameters, wanted,
                                       shard.count > 1 ? fmt::format("{}/{}", shard.number, shard.count) : "");
@@ -282,6 +283,10 @@ class Work {
 };
 
 }  // namespace
+
+std::string version() {
+  return fmt::format("{} (matcher {})", kVersion, kMatcherSource);
+}
 
 Summary run(const fs::path& inputs, const fs::path& output, const Options& options, Listener& listener,
             const Context& context) {

@@ -20,7 +20,7 @@ class WarningListener : public batch::Listener {
   void on_start(const store::Run::Forgotten& forgotten, const batch::Progress& /*progress*/) override {
     if (forgotten.parameters) {
       console_.warning(
-          "the run was made with other parameters or by another version; its pairs are done again");
+          "the run was made with other parameters or by another version or build; its pairs are done again");
     }
     for (const std::string& name : forgotten.fragments) {
       console_.warning(fmt::format("{}: has changed or is gone; its pairs are done again or dropped", name));

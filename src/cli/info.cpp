@@ -4,6 +4,7 @@
 #include <optional>
 #include <thread>
 
+#include "batch/batch.hpp"
 #include "cli/command.hpp"
 #include "cli/json_values.hpp"
 #include "core/files.hpp"
@@ -23,7 +24,7 @@ class InfoCommand final : public Command {
   ExitCode run(Console& console, Context& /*context*/) override {
     if (json_) require_writable_file(*json_);
     const std::vector<zbuffer::BackendInfo> backends = zbuffer::list_backends();
-    console.result(fmt::format("rejoin {}\nthreads {} of {}\n\nbackend    renderer\n", kVersion,
+    console.result(fmt::format("rejoin {}\nthreads {} of {}\n\nbackend    renderer\n", batch::version(),
                                thread_count(), std::thread::hardware_concurrency()));
     for (const zbuffer::BackendInfo& info : backends) {
       console.result(fmt::format("{:<10} {}\n", zbuffer::name_of(info.backend),

@@ -132,6 +132,23 @@ TEST_F(Batch, KilledTwentyTimesAndResumedIsAsUndisturbed) {
   }
 }
 
+TEST_F(Batch, RunOfABuildWithAnotherMatcherIsDoneAgain) {
+  fs::copy(*home_ / "undisturbed", run_, fs::copy_options::recursive);
+  const std::string version = SQLite::Database(run_ + "/run.sqlite", SQLite::OPEN_READONLY)
+                                  .execAndGet("SELECT version FROM run")
+                                  .getString();
+  const std::size_t build = version.find(" (matcher ");
+  ASSERT_NE(build, std::string::npos) << version;
+  SQLite::Database(run_ + "/run.sqlite", SQLite::OPEN_READWRITE)
+      .exec("UPDATE run SET version = '" + version.substr(0, build) +
+            " (matcher 0123456789)'; "
+            "UPDATE pair SET score = 0.5");
+  const Finished finished = run({"batch", scans(), "--out", run_});
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_NE(finished.err.find("another version or build"), std::string::npos) << finished.err;
+  EXPECT_EQ(content(run_), reference_);
+}
+
 TEST_F(Batch, SecondRunDoesNothing) {
   fs::copy(*home_ / "undisturbed", run_, fs::copy_options::recursive);
   const Finished again = run({"batch", scans(), "--out", run_ + "/"});
