@@ -110,11 +110,11 @@ PointBox box_of_piece(const std::vector<glm::dvec3>& points) {
 }
 
 /// Floats have wide steps far from the origin: tells where they come near the distance of the points, refuses where they exceed it.
-void check_steps(const Soup& soup, const std::string& name, std::vector<std::string>& warnings) {
+void check_steps(const Soup& soup, const PointBox& box, const std::string& name,
+                 std::vector<std::string>& warnings) {
   constexpr double kTold = 0.1;
   const auto is_float = [](const glm::dvec3& p) { return glm::dvec3(glm::vec3(p)) == p; };
   if (!std::all_of(soup.points.begin(), soup.points.end(), is_float)) return;
-  const PointBox box = box_of_piece(soup.points);
   const glm::dvec3 furthest = glm::max(glm::abs(box.low), glm::abs(box.high));
   const auto largest = static_cast<float>(std::max({furthest.x, furthest.y, furthest.z}));
   const double step = static_cast<double>(std::nextafter(largest, 2 * largest) - largest);
@@ -132,8 +132,7 @@ void check_steps(const Soup& soup, const std::string& name, std::vector<std::str
 /// The point that coordinates are stored relative to: zero for a scan near the origin, so that its floats
 /// stay as they are, else the box's centre on a coarse binary grid, so that subtracting it from float
 /// coordinates is exact.
-glm::dvec3 choose_origin(const std::vector<glm::dvec3>& points) {
-  const PointBox box = box_of_piece(points);
+glm::dvec3 choose_origin(const PointBox& box) {
   const double size = box.size();
   const glm::dvec3 furthest = glm::max(glm::abs(box.low), glm::abs(box.high));
   if (size <= 0 || std::max({furthest.x, furthest.y, furthest.z}) <= 4 * size) return glm::dvec3(0.0);
@@ -141,9 +140,9 @@ glm::dvec3 choose_origin(const std::vector<glm::dvec3>& points) {
   return glm::round((box.low + box.high) / (2 * grid)) * grid;
 }
 
-Mesh to_mesh(const Soup& soup) {
+Mesh to_mesh(const Soup& soup, const PointBox& box) {
   Mesh mesh;
-  mesh.origin = choose_origin(soup.points);
+  mesh.origin = choose_origin(box);
   mesh.vertices.reserve(soup.points.size());
   for (const glm::dvec3& point : soup.points) mesh.vertices.emplace_back(point - mesh.origin);
   mesh.normals = soup.normals;
@@ -317,8 +316,9 @@ Loaded clean(const Soup& soup, const std::string& name, Weld which) {
   check_points(soup, name);
   check_corners(soup, name);
   Loaded loaded;
-  check_steps(soup, name, loaded.warnings);
-  loaded.mesh = to_mesh(soup);
+  const PointBox box = box_of_piece(soup.points);
+  check_steps(soup, box, name, loaded.warnings);
+  loaded.mesh = to_mesh(soup, box);
   const bool cloud = soup.sizes.empty();
   if (!cloud && loaded.mesh.faces.empty()) {
     throw InputError(name, fmt::format("none of its {} faces has three corners", soup.sizes.size()),
