@@ -30,6 +30,7 @@ class ReportCommand final : public Command {
   }
 
   ExitCode run(Console& console, Context& context) override {
+    static_cast<void>(store::Run::open(run_));  // what is no run is told as that, not as a place for its page
     const std::filesystem::path out =
         out_ ? std::filesystem::path(*out_) : store::folder_of(run_) / "report.html";
     require_writable_file(out);

@@ -66,6 +66,16 @@ TEST_F(Inputs, TooFewScansAreAnError) {
   EXPECT_THROW(find_scans(folder_ / "nowhere"), IoError);
 }
 
+TEST_F(Inputs, RunInPlaceOfItsScansIsToldAsOne) {
+  put("run.sqlite", "x");
+  try {
+    find_scans(folder_);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("it is a run"), std::string::npos) << error.what();
+  }
+}
+
 TEST_F(Inputs, NameThatIsNoUtf8IsRefusedAsItCouldNotBeToldApart) {
   for (const char* name : {"a.ply", "Gef\xe4\xdf.ply", "Gef\xe4\xe4.ply"}) put(name, "x");
   try {

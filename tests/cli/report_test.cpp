@@ -238,7 +238,9 @@ TEST(Report, OfAFolderThatIsNoRunNamesIt) {
   const TemporaryFolder folder;
   const Finished finished = testing::run({"report", folder / "nothing"});
   EXPECT_EQ(finished.exit_code, 1);
-  EXPECT_NE(finished.err.find("nothing"), std::string::npos) << finished.err;
+  EXPECT_NE(finished.err.find("nothing: is not there; give the folder that rejoin batch wrote"),
+            std::string::npos)
+      << finished.err;
   EXPECT_TRUE(is_one_line(finished.err)) << finished.err;
 }
 
