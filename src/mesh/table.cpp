@@ -15,8 +15,7 @@ namespace {
 constexpr double kLayer = 0.01;   // thickness of what is taken for the plane, of the diagonal
 constexpr double kPlane = 0.2;    // of the whole area, at least
 constexpr double kPiece = 0.05;   // of the whole area, at least, stands on it
-constexpr double kBehind = 0.1;   // of what is not in the plane, at most, lies behind it
-constexpr double kUpwards = 0.9;  // cosine, within which a face is one of the plane
+constexpr double kBehind = 0.08;  // of the whole area, at most, lies behind it
 
 /// A face and its area vector.
 struct Plate {
@@ -59,35 +58,34 @@ glm::dvec3 fullest_direction(const std::vector<Plate>& plates) {
   }
   glm::dvec3 mean =
       *std::ranges::max_element(cells, {}, [](const glm::dvec3& cell) { return glm::length(cell); });
-  for (int round = 0; round < 3; ++round) {
+  for (const double cosine :
+       {0.9, 0.97, 0.99}) {  // nearer and nearer, as what is tilted a little is not of the plane
     const glm::dvec3 up = glm::normalize(mean);
     mean = glm::dvec3(0.0);
     for (const Plate& plate : plates) {
-      if (glm::dot(plate.facing, up) > kUpwards * plate.area()) mean += plate.facing;
+      if (glm::dot(plate.facing, up) > cosine * plate.area()) mean += plate.facing;
     }
+    if (glm::length(mean) == 0) return up;
   }
   return glm::normalize(mean);
 }
 
-/// The height along `up` about which most of what faces upwards lies.
-double fullest_height(const std::vector<Plate>& plates, const glm::dvec3& up, double layer) {
+/// The height along `up` at which a table lies if there is one: little lies below it, and it takes up more than the rest of this share.
+double height_of_table(const std::vector<Plate>& plates, const glm::dvec3& up) {
+  constexpr double kLowest = 0.5 * (kBehind + kPlane);
   std::vector<std::pair<double, double>> heights;  // and areas
+  double all = 0;
   for (const Plate& plate : plates) {
-    if (glm::dot(plate.facing, up) > kUpwards * plate.area())
-      heights.emplace_back(glm::dot(plate.middle(), up), plate.area());
+    heights.emplace_back(glm::dot(plate.middle(), up), plate.area());
+    all += plate.area();
   }
   std::ranges::sort(heights);
-  double inside = 0;
-  double most = 0;
-  double best = 0;
-  for (std::size_t low = 0, high = 0; high < heights.size(); ++high) {
-    inside += heights[high].second;
-    for (; heights[high].first - heights[low].first > layer; ++low) inside -= heights[low].second;
-    if (inside <= most) continue;
-    most = inside;
-    best = 0.5 * (heights[low].first + heights[high].first);
+  double below = 0;
+  for (const auto& [height, area] : heights) {
+    below += area;
+    if (below >= kLowest * all) return height;
   }
-  return best;
+  return heights.back().first;
 }
 
 constexpr std::size_t kAround = 16;
@@ -134,7 +132,7 @@ double table(const Mesh& mesh) {
   const glm::dvec3 up = fullest_direction(plates);
   const Box box = bounds(mesh);
   const double layer = kLayer * glm::distance(glm::dvec3(box.low), glm::dvec3(box.high));
-  const double height = fullest_height(plates, up, layer);
+  const double height = height_of_table(plates, up);
   const std::array<glm::dvec3, kAround> directions = directions_about(up);
   Reach of_plane = of_nothing();
   Reach of_rest = of_nothing();
@@ -152,7 +150,7 @@ double table(const Mesh& mesh) {
     }
   }
   const double all = plane + front + behind;
-  if (plane < kPlane * all || front < kPiece * all || behind > kBehind * (front + behind)) return 0;
+  if (plane < kPlane * all || front < kPiece * all || behind > kBehind * all) return 0;
   const bool beyond = std::ranges::equal(
       of_plane, of_rest, [layer](double of_plane, double of_rest) { return of_plane > of_rest + layer; });
   return beyond ? plane / all : 0;

@@ -109,6 +109,13 @@ TEST(Table, PlaneThatHangsTogetherWithNothingIsOneWhicheverWayItFaces) {
   EXPECT_TRUE(bodies(together(test::icosphere(50, 3), plane)).empty());
 }
 
+TEST(Table, IsKnownBelowAPieceThatIsFlatItself) {
+  const auto off_middle = [](float x, float y) { return std::max(std::abs(x), std::abs(y)); };
+  EXPECT_GT(table(relief([&](float x, float y) { return off_middle(x, y) < 75 ? 40.0F : 0.0F; })), 0.2);
+  const auto tilted = [&](float x, float y) { return off_middle(x, y) < 60 ? 40.0F + 0.25F * x : 0.0F; };
+  EXPECT_GT(table(relief(tilted)), 0.2);
+}
+
 TEST(Table, FloorsAndUndersidesAreNone) {
   EXPECT_EQ(table(test::box({100, 80, 20}, 10)), 0);
   EXPECT_EQ(table(test::box({200, 100, 5}, 4)), 0);
