@@ -39,20 +39,21 @@ std::vector<Plate> plates_of(const Mesh& mesh) {
 }
 
 /// The cell of a cube about the origin through which a direction passes.
-std::size_t cell_of(const glm::dvec3& v, int cells) {
+std::size_t cell_of(const glm::dvec3& v, std::size_t cells) {
   const glm::dvec3 size = glm::abs(v);
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   const auto step = [&](double value) {
-    return std::clamp(static_cast<int>((value / size[axis] + 1.0) / 2.0 * cells), 0, cells - 1);
+    const double at = (value / size[axis] + 1.0) / 2.0 * static_cast<double>(cells);
+    return std::min(static_cast<std::size_t>(at), cells - 1);
   };
-  const int side = 2 * axis + (v[axis] < 0 ? 1 : 0);
-  return static_cast<std::size_t>((side * cells + step(v[(axis + 1) % 3])) * cells + step(v[(axis + 2) % 3]));
+  const std::size_t side = 2 * static_cast<std::size_t>(axis) + (v[axis] < 0 ? 1 : 0);
+  return (side * cells + step(v[(axis + 1) % 3])) * cells + step(v[(axis + 2) % 3]);
 }
 
 /// The direction in which most of the surface faces.
 glm::dvec3 fullest_direction(const std::vector<Plate>& plates) {
-  constexpr int kCells = 8;
-  std::vector<glm::dvec3> cells(std::size_t{6} * kCells * kCells, glm::dvec3(0.0));
+  constexpr std::size_t kCells = 8;
+  std::vector<glm::dvec3> cells(6 * kCells * kCells, glm::dvec3(0.0));
   for (const Plate& plate : plates) {
     if (plate.area() > 0) cells[cell_of(plate.facing, kCells)] += plate.facing;
   }
