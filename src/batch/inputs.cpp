@@ -81,9 +81,9 @@ std::vector<std::string> find_scans(const fs::path& folder) {
   }
   if (names.size() < 2) {
     std::string mend = "give a folder of ply, obj, stl, off, gltf, glb, drc, xyz or pts files";
+    if (fs::exists(folder / store::kFileName)) mend = "it is a run: give the folder of its scans";
     if (!told_of_folders(folder).empty())
       mend = "there are scans in folders below: move those up, or give one of these";
-    if (fs::exists(folder / store::kFileName)) mend = "it is a run: give the folder of its scans";
     throw InputError(folder.string(), names.empty() ? "holds no scan" : "holds one scan only", mend);
   }
   for (const std::string& name : names) require_tellable_name(folder / name);
