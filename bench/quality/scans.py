@@ -7,6 +7,7 @@ import subprocess
 from pathlib import Path
 from typing import NamedTuple
 
+PROGRAM = str(Path(__file__).resolve().parents[2] / "build/release/rejoin")
 FOUND = (5.0, 2.0)  # degrees, per cent of the two fragments' joint diameter
 PRECISE = (1.0, 0.5)
 

@@ -391,6 +391,25 @@ TEST(PaintedFacets, ColourOnAFewFacesIsNoFacetAndCounted) {
   EXPECT_EQ(painted->left_out, 1U);
 }
 
+// Nothing lies behind a scan from one side; where a user says what is broken, that is no sign of a wall.
+TEST(PaintedFacets, WhatIsPaintedIsNoWallThoughNothingLiesBehindIt) {
+  const Mesh whole = box({40, 30, 20}, 20, flat);
+  std::vector<std::uint32_t> top;
+  for (std::uint32_t f = 0; f < whole.faces.size(); ++f) {
+    const glm::uvec3& face = whole.faces[f];
+    if (std::min({whole.vertices[face.x].z, whole.vertices[face.y].z, whole.vertices[face.z].z}) > 19.9F)
+      top.push_back(f);
+  }
+  const Mesh mesh = submesh(whole, top);
+  const Segmentation found = segment(mesh);
+  EXPECT_EQ(unbacked_share(found), 1.0);
+  EXPECT_LT(unbacked_share(segment(whole)), 0.01);
+  const std::vector<glm::u8vec3> colours(mesh.faces.size(), {250, 20, 20});
+  const auto painted = painted_facets(found, mesh.origin, painted_by(mesh, colours));
+  ASSERT_TRUE(painted);
+  EXPECT_EQ(unbacked_share(painted->segmentation), 0.0);
+}
+
 TEST(PaintedFacets, FacetsThatNobodyChangedAreThereAgain) {
   const Mesh mesh = box({60, 1, 1}, 20, flat);  // a rod, whose ends are hardly larger than the smallest facet
   const Segmentation found = segment(mesh);
