@@ -144,6 +144,7 @@ class Look {
     return e;
   }
 
+  /// Joint::share_by_scale(), one way.
   double share_by_scale() const {
     const Contact contact = contact_of(b_.broken_of(-1));
     if (!contact.has_shape()) return 1.0;
