@@ -1,4 +1,4 @@
-/// rejoin outline match, assemble and calibrate, through the program.
+/// rejoin outline match and calibrate, through the program.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -12,90 +12,10 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
-#include "run_program.hpp"
+#include "outline_pieces.hpp"
 
 namespace rejoin::cli::testing {
 namespace {
-
-using nlohmann::json;
-using Matrix = std::array<std::array<double, 3>, 3>;
-
-Matrix matrix_of(const json& rows) {
-  return rows.get<Matrix>();
-}
-
-Matrix product(const Matrix& a, const Matrix& b) {
-  Matrix result{};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j)
-      for (std::size_t k = 0; k < 3; ++k) result[i][j] += a[i][k] * b[k][j];
-  return result;
-}
-
-/// Of a motion.
-Matrix inverse(const Matrix& m) {
-  return {{{m[0][0], m[1][0], -m[0][0] * m[0][2] - m[1][0] * m[1][2]},
-           {m[0][1], m[1][1], -m[0][1] * m[0][2] - m[1][1] * m[1][2]},
-           {0.0, 0.0, 1.0}}};
-}
-
-/// The pieces are some hundred pixels across: a hundredth of a radian moves their ends by a few pixels.
-void expect_same_motion(const Matrix& found, const Matrix& truth) {
-  for (std::size_t row = 0; row < 2; ++row) {
-    EXPECT_NEAR(found[row][0], truth[row][0], 0.01);
-    EXPECT_NEAR(found[row][1], truth[row][1], 0.01);
-    EXPECT_NEAR(found[row][2], truth[row][2], 5.0);
-  }
-}
-
-/// Two shapes broken into three pieces each.
-struct BrokenShapes {
-  TemporaryFolder folder;
-  std::string pieces = folder / "pieces";
-  json truth;
-
-  BrokenShapes() {
-    const Finished made = run({"outline", "shatter", pieces, "--shapes", "2", "--pieces", "6", "--resolution",
-                               "25", "--seed", "5"});
-    EXPECT_EQ(made.exit_code, 0) << made.err;
-    truth = json::parse(read_file(pieces + "/truth.json"));
-  }
-
-  std::string operator/(const std::string& name) const { return folder / name; }
-
-  Matrix world(const std::string& piece) const { return matrix_of(truth["fragments"][piece]["to_world"]); }
-
-  json assembled() const {
-    const std::string file = folder / "assembly.json";
-    const Finished done = run({"outline", "assemble", pieces, "--json", file});
-    EXPECT_EQ(done.exit_code, 0) << done.err;
-    return json::parse(read_file(file));
-  }
-};
-
-/// A dark square on white, or what `draw` makes of a white picture.
-template <typename Draw>
-std::string picture(const TemporaryFolder& folder, const std::string& name, const Draw& draw) {
-  cv::Mat image(64, 64, CV_8U, cv::Scalar(255));
-  draw(image);
-  const std::string path = folder / name;
-  EXPECT_TRUE(cv::imwrite(path, image));
-  return path;
-}
-
-std::string good_picture(const TemporaryFolder& folder) {
-  return picture(folder, "good.png", [](cv::Mat& image) {
-    cv::rectangle(image, cv::Rect(10, 12, 40, 30), cv::Scalar(0), cv::FILLED);
-  });
-}
-
-/// Refused with exit code 1 and one line that contains `reason`.
-void expect_refusal(const std::vector<std::string>& arguments, const std::string& reason) {
-  const Finished finished = run(arguments);
-  EXPECT_EQ(finished.exit_code, 1);
-  EXPECT_TRUE(is_one_line(finished.err)) << finished.err;
-  EXPECT_NE(finished.err.find(reason), std::string::npos) << finished.err;
-}
 
 TEST(OutlineMatch, FindsAPlantedJoinAndDrawsIt) {
   const BrokenShapes shapes;
@@ -137,29 +57,6 @@ TEST(OutlineMatch, EveryMethodStatesAreasOfAboutHalfAPixelAlongATrueJoin) {
   }
 }
 
-TEST(OutlineAssemble, KeepsTwoShapesApartAndPlacesEveryPiece) {
-  const BrokenShapes shapes;
-  const json assembly = shapes.assembled();
-  EXPECT_TRUE(assembly["unplaced"].empty());
-  EXPECT_EQ(assembly["joins"].size(), shapes.truth["joins"].size());
-  for (const json& join : shapes.truth["joins"]) {
-    const std::string a = join[0];
-    const std::string b = join[1];
-    const json& placed_a = assembly["fragments"][a];
-    const json& placed_b = assembly["fragments"][b];
-    EXPECT_EQ(placed_a["group"], placed_b["group"]);
-    expect_same_motion(product(inverse(matrix_of(placed_a["pose"])), matrix_of(placed_b["pose"])),
-                       product(inverse(shapes.world(a)), shapes.world(b)));
-  }
-  for (const auto& [name, piece] : assembly["fragments"].items()) {
-    for (const auto& [other, second] : assembly["fragments"].items()) {
-      const bool one_shape =
-          shapes.truth["fragments"][name]["object"] == shapes.truth["fragments"][other]["object"];
-      EXPECT_EQ(piece["group"] == second["group"], one_shape) << name << " " << other;
-    }
-  }
-}
-
 TEST(OutlineCalibrate, WhatItWritesIsReadByMatch) {
   const BrokenShapes shapes;
   shapes.assembled();
@@ -183,22 +80,6 @@ TEST(OutlineCalibrate, WhatItWritesIsReadByMatch) {
                               shapes.pieces + "/" + join[1].get<std::string>(), "--calibration", numbers});
   EXPECT_EQ(found.exit_code, 0) << found.err;
   EXPECT_EQ(found.out.rfind("join,", 0), 0U) << found.out;
-}
-
-// With steps as long as a third of a join nothing tells true from false.
-TEST(OutlineAssemble, SearchesWithTheNumbersOfACalibration) {
-  const BrokenShapes shapes;
-  write_file(shapes / "none.json",
-             R"({"schema": "rejoin.outline-calibration/1",
-                 "levels": [{"step": 60.0, "xi": 1.2, "zeta": 1.8, "n_min": 5.0}]})");
-  const std::string file = shapes / "assembly.json";
-  const Finished done =
-      run({"outline", "assemble", shapes.pieces, "--calibration", shapes / "none.json", "--json", file});
-  ASSERT_EQ(done.exit_code, 0) << done.err;
-  EXPECT_LT(json::parse(read_file(file))["joins"].size(), shapes.truth["joins"].size());
-  const Finished missing = run({"outline", "assemble", shapes.pieces, "--calibration", shapes / "gone.json"});
-  EXPECT_EQ(missing.exit_code, 1);
-  EXPECT_NE(missing.err.find("gone.json"), std::string::npos) << missing.err;
 }
 
 TEST(OutlineMatch, ACalibrationOfAnotherResolutionIsToldAndOneThatCannotFitIsRefused) {
@@ -354,34 +235,6 @@ TEST(OutlineMatch, APictureThatClaimsToBeHugeIsRefusedByItsHeader) {
   expect_refusal({"outline", "match", folder / "huge.png", good_picture(folder)}, "120 million");
 }
 
-TEST(OutlineAssemble, TellsEveryFileThatItWrites) {
-  const BrokenShapes shapes;
-  const std::string file = shapes / "assembly.json";
-  const std::string pictures = shapes / "pictures";
-  const Finished done = run({"outline", "assemble", shapes.pieces, "--json", file, "--out", pictures});
-  ASSERT_EQ(done.exit_code, 0) << done.err;
-  std::size_t told = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(pictures)) {
-    EXPECT_NE(done.out.find("wrote " + entry.path().string() + "\n"), std::string::npos) << done.out;
-    ++told;
-  }
-  EXPECT_EQ(told, 6U);  // pieces.png, two objects, two pictures each, and similarity.png
-  EXPECT_NE(done.out.find("wrote " + file + "\n"), std::string::npos) << done.out;
-}
-
-TEST(OutlineAssemble, PicturesOfAnEarlierRunDoNotStay) {
-  const BrokenShapes shapes;
-  const std::string pictures = shapes / "pictures";
-  std::filesystem::create_directory(pictures);
-  for (const char* name : {"object_2.png", "object_3.png", "joins_12.png", "object_plan.png"})
-    write_file(pictures + "/" + name, "old");
-  EXPECT_EQ(run({"outline", "assemble", shapes.pieces, "--out", pictures}).exit_code, 0);
-  EXPECT_NE(read_file(pictures + "/object_2.png"), "old");
-  EXPECT_FALSE(std::filesystem::exists(pictures + "/object_3.png"));
-  EXPECT_FALSE(std::filesystem::exists(pictures + "/joins_12.png"));
-  EXPECT_TRUE(std::filesystem::exists(pictures + "/object_plan.png"));
-}
-
 TEST(OutlineMatch, PicturesOfAnEarlierPairDoNotStay) {
   const TemporaryFolder folder;
   const std::string square = good_picture(folder);
@@ -399,66 +252,6 @@ TEST(OutlineMatch, PicturesOfAnEarlierPairDoNotStay) {
   EXPECT_NE(over.err.find("joined.png: is read too and would be lost"), std::string::npos) << over.err;
 }
 
-TEST(OutlineAssemble, AFileThatCannotBeUsedIsToldAndTheRestGoesOn) {
-  const BrokenShapes shapes;
-  const json without = shapes.assembled();
-  write_file(shapes.pieces + "/bad.png", "no picture");
-  const std::string file = shapes / "rest.json";
-  const Finished done = run({"outline", "assemble", shapes.pieces, "--json", file});
-  EXPECT_EQ(done.exit_code, 1);
-  EXPECT_NE(done.err.find("bad.png: is no PNG"), std::string::npos) << done.err;
-  EXPECT_NE(done.err.find("1 of the folder's files cannot be used"), std::string::npos) << done.err;
-  const json rest = json::parse(read_file(file));
-  EXPECT_EQ(rest["fragments"], without["fragments"]);
-  EXPECT_EQ(rest["joins"], without["joins"]);
-  ASSERT_EQ(rest["unusable"].size(), 1U);
-  EXPECT_EQ(rest["unusable"][0]["name"], "bad.png");
-  EXPECT_EQ(rest["unplaced"], json::array({"bad.png"}));
-}
-
-TEST(OutlineAssemble, ACopyOfAPieceIsToldAndLeftOut) {
-  const BrokenShapes shapes;
-  const json without = shapes.assembled();
-  std::filesystem::copy_file(shapes.pieces + "/piece_001.csv", shapes.pieces + "/piece_001 copy.csv");
-  const std::string file = shapes / "with.json";
-  const Finished done = run({"outline", "assemble", shapes.pieces, "--json", file});
-  EXPECT_EQ(done.exit_code, 0) << done.err;
-  const std::string told =
-      "piece_001.csv and piece_001 copy.csv are the same outline; piece_001 copy.csv is left out";
-  EXPECT_NE(done.err.find(told), std::string::npos) << done.err;
-  const json with = json::parse(read_file(file));
-  EXPECT_EQ(with["fragments"], without["fragments"]);
-  ASSERT_EQ(with["repeated"].size(), 1U);
-  EXPECT_EQ(with["repeated"][0]["name"], "piece_001 copy.csv");
-  EXPECT_EQ(with["unplaced"], json::array({"piece_001 copy.csv"}));
-  EXPECT_EQ(with["joins"], without["joins"]);
-}
-
-// Hundreds of borders to compare take long enough for the signal to arrive in the search.
-TEST(OutlineAssemble, AfterCtrlCTellsWhichPiecesWereNotTried) {
-  const TemporaryFolder folder;
-  const std::string pieces = folder / "pieces";
-  const Finished made =
-      run({"outline", "shatter", pieces, "--shapes", "20", "--pieces", "200", "--resolution", "25"});
-  ASSERT_EQ(made.exit_code, 0) << made.err;
-  const std::string file = folder / "assembly.json";
-  Running running({"outline", "assemble", pieces, "--json", file, "--verbose"});
-  ASSERT_TRUE(running.wait_for_stderr("prepared after"));
-  running.interrupt();
-  const Finished finished = running.finish();
-  EXPECT_EQ(finished.exit_code, 130) << finished.err;
-  EXPECT_NE(finished.err.find("interrupted"), std::string::npos) << finished.err;
-  const json assembly = json::parse(read_file(file));
-  EXPECT_TRUE(assembly["search"]["interrupted"].get<bool>());
-  ASSERT_FALSE(assembly["untried"].empty());
-  for (const std::string name : assembly["untried"]) {
-    EXPECT_NE(std::find(assembly["unplaced"].begin(), assembly["unplaced"].end(), name),
-              assembly["unplaced"].end())
-        << name;
-    EXPECT_NE(finished.out.find("not tried with all others: " + name), std::string::npos) << finished.out;
-  }
-}
-
 // A pipe that nobody writes to holds the program inside the reader; opening our end waits until it is there.
 TEST(OutlineMatch, CtrlCWhileReadingEndsAtOnceWith130) {
   const BrokenShapes shapes;
@@ -470,19 +263,6 @@ TEST(OutlineMatch, CtrlCWhileReadingEndsAtOnceWith130) {
   const Finished finished = running.finish();
   EXPECT_EQ(finished.exit_code, 130);
   EXPECT_EQ(finished.out, "");
-}
-
-TEST(OutlineAssemble, AFolderOfNothingUsableIsRefusedWithTheReason) {
-  const TemporaryFolder folder;
-  std::filesystem::create_directory(folder / "bad");
-  write_file(folder / "bad/one.png", "no picture");
-  expect_refusal({"outline", "assemble", folder / "bad"}, "one.png: is no PNG");
-}
-
-TEST(OutlineAssemble, AFolderWithoutPiecesIsRefused) {
-  const TemporaryFolder folder;
-  std::filesystem::create_directory(folder / "empty");
-  expect_refusal({"outline", "assemble", folder / "empty"}, "holds no picture");
 }
 
 TEST(OutlineCalibrate, JoinsThatAreNoneAreRefused) {

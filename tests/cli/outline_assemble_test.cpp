@@ -1,0 +1,161 @@
+/// rejoin outline assemble, through the program.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string>
+
+#include "outline_pieces.hpp"
+
+namespace rejoin::cli::testing {
+namespace {
+
+TEST(OutlineAssemble, KeepsTwoShapesApartAndPlacesEveryPiece) {
+  const BrokenShapes shapes;
+  const json assembly = shapes.assembled();
+  EXPECT_TRUE(assembly["unplaced"].empty());
+  EXPECT_EQ(assembly["joins"].size(), shapes.truth["joins"].size());
+  for (const json& join : shapes.truth["joins"]) {
+    const std::string a = join[0];
+    const std::string b = join[1];
+    const json& placed_a = assembly["fragments"][a];
+    const json& placed_b = assembly["fragments"][b];
+    EXPECT_EQ(placed_a["group"], placed_b["group"]);
+    expect_same_motion(product(inverse(matrix_of(placed_a["pose"])), matrix_of(placed_b["pose"])),
+                       product(inverse(shapes.world(a)), shapes.world(b)));
+  }
+  for (const auto& [name, piece] : assembly["fragments"].items()) {
+    for (const auto& [other, second] : assembly["fragments"].items()) {
+      const bool one_shape =
+          shapes.truth["fragments"][name]["object"] == shapes.truth["fragments"][other]["object"];
+      EXPECT_EQ(piece["group"] == second["group"], one_shape) << name << " " << other;
+    }
+  }
+}
+
+// With steps as long as a third of a join nothing tells true from false.
+TEST(OutlineAssemble, SearchesWithTheNumbersOfACalibration) {
+  const BrokenShapes shapes;
+  write_file(shapes / "none.json",
+             R"({"schema": "rejoin.outline-calibration/1",
+                 "levels": [{"step": 60.0, "xi": 1.2, "zeta": 1.8, "n_min": 5.0}]})");
+  const std::string file = shapes / "assembly.json";
+  const Finished done =
+      run({"outline", "assemble", shapes.pieces, "--calibration", shapes / "none.json", "--json", file});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_LT(json::parse(read_file(file))["joins"].size(), shapes.truth["joins"].size());
+  const Finished missing = run({"outline", "assemble", shapes.pieces, "--calibration", shapes / "gone.json"});
+  EXPECT_EQ(missing.exit_code, 1);
+  EXPECT_NE(missing.err.find("gone.json"), std::string::npos) << missing.err;
+}
+
+TEST(OutlineAssemble, TellsEveryFileThatItWrites) {
+  const BrokenShapes shapes;
+  const std::string file = shapes / "assembly.json";
+  const std::string pictures = shapes / "pictures";
+  const Finished done = run({"outline", "assemble", shapes.pieces, "--json", file, "--out", pictures});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  std::size_t told = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(pictures)) {
+    EXPECT_NE(done.out.find("wrote " + entry.path().string() + "\n"), std::string::npos) << done.out;
+    ++told;
+  }
+  EXPECT_EQ(told, 6U);  // pieces.png, two objects, two pictures each, and similarity.png
+  EXPECT_NE(done.out.find("wrote " + file + "\n"), std::string::npos) << done.out;
+}
+
+TEST(OutlineAssemble, PicturesOfAnEarlierRunDoNotStay) {
+  const BrokenShapes shapes;
+  const std::string pictures = shapes / "pictures";
+  std::filesystem::create_directory(pictures);
+  for (const char* name : {"object_2.png", "object_3.png", "joins_12.png", "object_plan.png"})
+    write_file(pictures + "/" + name, "old");
+  EXPECT_EQ(run({"outline", "assemble", shapes.pieces, "--out", pictures}).exit_code, 0);
+  EXPECT_NE(read_file(pictures + "/object_2.png"), "old");
+  EXPECT_FALSE(std::filesystem::exists(pictures + "/object_3.png"));
+  EXPECT_FALSE(std::filesystem::exists(pictures + "/joins_12.png"));
+  EXPECT_TRUE(std::filesystem::exists(pictures + "/object_plan.png"));
+}
+
+TEST(OutlineAssemble, AFileThatCannotBeUsedIsToldAndTheRestGoesOn) {
+  const BrokenShapes shapes;
+  const json without = shapes.assembled();
+  write_file(shapes.pieces + "/bad.png", "no picture");
+  const std::string file = shapes / "rest.json";
+  const Finished done = run({"outline", "assemble", shapes.pieces, "--json", file});
+  EXPECT_EQ(done.exit_code, 1);
+  EXPECT_NE(done.err.find("bad.png: is no PNG"), std::string::npos) << done.err;
+  EXPECT_NE(done.err.find("1 of the folder's files cannot be used"), std::string::npos) << done.err;
+  const json rest = json::parse(read_file(file));
+  EXPECT_EQ(rest["fragments"], without["fragments"]);
+  EXPECT_EQ(rest["joins"], without["joins"]);
+  ASSERT_EQ(rest["unusable"].size(), 1U);
+  EXPECT_EQ(rest["unusable"][0]["name"], "bad.png");
+  EXPECT_EQ(rest["unplaced"], json::array({"bad.png"}));
+}
+
+TEST(OutlineAssemble, ACopyOfAPieceIsToldAndLeftOut) {
+  const BrokenShapes shapes;
+  const json without = shapes.assembled();
+  std::filesystem::copy_file(shapes.pieces + "/piece_001.csv", shapes.pieces + "/piece_001 copy.csv");
+  const std::string file = shapes / "with.json";
+  const Finished done = run({"outline", "assemble", shapes.pieces, "--json", file});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  const std::string told =
+      "piece_001.csv and piece_001 copy.csv are the same outline; piece_001 copy.csv is left out";
+  EXPECT_NE(done.err.find(told), std::string::npos) << done.err;
+  const json with = json::parse(read_file(file));
+  EXPECT_EQ(with["fragments"], without["fragments"]);
+  ASSERT_EQ(with["repeated"].size(), 1U);
+  EXPECT_EQ(with["repeated"][0]["name"], "piece_001 copy.csv");
+  EXPECT_EQ(with["unplaced"], json::array({"piece_001 copy.csv"}));
+  EXPECT_EQ(with["joins"], without["joins"]);
+}
+
+// Hundreds of borders to compare take long enough for the signal to arrive in the search.
+TEST(OutlineAssemble, AfterCtrlCTellsWhichPiecesWereNotTried) {
+  const TemporaryFolder folder;
+  const std::string pieces = folder / "pieces";
+  const Finished made =
+      run({"outline", "shatter", pieces, "--shapes", "20", "--pieces", "200", "--resolution", "25"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const std::string file = folder / "assembly.json";
+  Running running({"outline", "assemble", pieces, "--json", file, "--verbose"});
+  ASSERT_TRUE(running.wait_for_stderr("prepared after"));
+  running.interrupt();
+  const Finished finished = running.finish();
+  EXPECT_EQ(finished.exit_code, 130) << finished.err;
+  EXPECT_NE(finished.err.find("interrupted"), std::string::npos) << finished.err;
+  const json assembly = json::parse(read_file(file));
+  EXPECT_TRUE(assembly["search"]["interrupted"].get<bool>());
+  ASSERT_FALSE(assembly["untried"].empty());
+  for (const std::string name : assembly["untried"]) {
+    EXPECT_NE(std::find(assembly["unplaced"].begin(), assembly["unplaced"].end(), name),
+              assembly["unplaced"].end())
+        << name;
+    EXPECT_NE(finished.out.find("not tried with all others: " + name), std::string::npos) << finished.out;
+  }
+}
+
+TEST(OutlineAssemble, AFolderOfNothingUsableIsRefusedWithTheReason) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "bad");
+  write_file(folder / "bad/one.png", "no picture");
+  expect_refusal({"outline", "assemble", folder / "bad"}, "one.png: is no PNG");
+}
+
+TEST(OutlineAssemble, AFolderWithoutPiecesIsRefused) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "empty");
+  expect_refusal({"outline", "assemble", folder / "empty"}, "holds no picture");
+}
+
+}  // namespace
+}  // namespace rejoin::cli::testing
