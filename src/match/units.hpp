@@ -39,7 +39,7 @@ struct TenTimes {
 /// Scans as in centimetres beside scans as in millimetres: two groups between whose walls, or whose spacings, a gap lies, and of which
 /// the medians of all lengths differ by about ten times.  Small pieces of one box have the wall, the noise or the spacing of large
 /// ones.  Inches beside centimetres (2.54 times) cannot be told from other sherds.
-/// \return nullopt if there are no such groups; in a group may lack what has no wall
+/// \return nullopt if there are no such groups; split by their walls, a scan without one is in neither
 std::optional<TenTimes> ten_times_apart(const std::vector<Lengths>& scans);
 
 }  // namespace rejoin::match
