@@ -305,10 +305,14 @@ class Assembler {
       if ((link.a == piece || link.b == piece) && (best == nullptr || link.score > best->score)) best = &link;
     }
     if (best == nullptr) return "no pose was found for it with any other fragment";
-    const char* said = among(options_.constraints.must_not_join, best->a, best->b)
-                           ? "its best join is one that must not be: with {{{}}}, score {:.3f}"
-                           : "no join is sure: the best is with {{{}}}, score {:.3f}";
-    return fmt::format(fmt::runtime(said), best->a == piece ? best->b : best->a, best->score);
+    const auto named = [&](const char* said) {
+      return fmt::format("{} {{{}}}, score {:.3f}", said, best->a == piece ? best->b : best->a, best->score);
+    };
+    if (among(options_.constraints.must_not_join, best->a, best->b))
+      return named("its best join is one that must not be: with");
+    if (best->holds || best->score < options_.sure) return named("no join is sure: the best is with");
+    return named("no join is sure: the best is with") +
+           ", but another pose of the two is nearly as good, or parts of their surfaces disagree on the pose";
   }
 
   /// Sure joins between two objects that cannot lie as they say, the strongest of each two: often a second scan of pieces makes an
@@ -318,7 +322,7 @@ class Assembler {
     for (const Rejection& rejection : growth_.rejected) {
       const Link& link = links_[rejection.link];
       const auto groups = std::minmax(result.placements[link.a].group, result.placements[link.b].group);
-      if (rejection.why != Rejection::Why::Overlap || link.score < options_.sure) continue;
+      if (rejection.why != Rejection::Why::Overlap || link.score < options_.sure || !link.holds) continue;
       if (groups.first < 0 || groups.first == groups.second || !told.insert(groups).second) continue;
       result.doubts.push_back(
           fmt::format("{{{}}} and {{{}}} join (score {:.3f}) but are put into two objects, as that would put "

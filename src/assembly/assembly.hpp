@@ -18,6 +18,8 @@ struct Link {
   std::size_t b = 0;
   Rigid pose;        ///< b's file coordinates -> a's file coordinates
   double score = 0;  ///< how likely they join so, 0 .. 1
+  bool holds =
+      true;  ///< false if match::Stability casts doubt on it: however high the score, it needs a witness
 };
 
 /// What the user knows.

@@ -21,7 +21,7 @@ using Key = std::pair<std::size_t, std::size_t>;
 
 /// The same join seen from the other side.
 Link turned(const Link& link) {
-  return {link.b, link.a, inverse(link.pose), link.score};
+  return {link.b, link.a, inverse(link.pose), link.score, link.holds};
 }
 
 /// The best links of each pair, a < b.

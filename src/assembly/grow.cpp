@@ -10,7 +10,8 @@ namespace rejoin::assembly {
 namespace {
 
 constexpr double kLeastOdds = -6.0;  // links below are noise
-constexpr double kWanted = 1000.0;   // certainty that goes before everything
+constexpr double kDoubt = 1.0;      // log-odds by which a link that does not hold is less than sure, at least
+constexpr double kWanted = 1000.0;  // certainty that goes before everything
 constexpr double kFirst = 500.0;
 constexpr double kWorthHearing = -6.0;   // certainty from which others are asked
 constexpr double kTogether = 1.0;        // what two unsure joins need together above the limit for one
@@ -30,7 +31,7 @@ Grower::Grower(const std::vector<Piece>& pieces, const std::vector<Link>& links,
   want(options.constraints.must_join);  // links that may be wanted are kept, however unlikely
   for (const auto& [a, b] : options.constraints.must_not_join) unwanted_.push_back(key_of(a, b));
   for (std::size_t k = 0; k < links.size(); ++k) {
-    odds_.push_back(log_odds(links[k].score));
+    odds_.push_back(odds_of(links[k]));
     if (must(unwanted_, k)) continue;
     if (odds_[k] >= kLeastOdds || must(wanted_, k)) links_of_[key_of(links[k].a, links[k].b)].push_back(k);
   }
@@ -39,6 +40,12 @@ Grower::Grower(const std::vector<Piece>& pieces, const std::vector<Link>& links,
                      [&](std::size_t x, std::size_t y) { return odds_[x] > odds_[y]; });
   }
   want({});
+}
+
+/// The link's log-odds; a little too low to be used alone if it does not hold.
+double Grower::odds_of(const Link& link) const {
+  const double odds = log_odds(link.score);
+  return link.holds ? odds : std::min(odds, log_odds(options_.sure) - kDoubt);
 }
 
 void Grower::want(const std::vector<std::pair<std::size_t, std::size_t>>& pairs) {

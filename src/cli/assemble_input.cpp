@@ -18,6 +18,7 @@
 #include "cli/interrupt.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "match/verify.hpp"
 #include "store/run.hpp"
 
 namespace rejoin::cli {
@@ -123,8 +124,11 @@ AssembleInput read_run(const fs::path& folder, Console& console, const Context& 
     const auto a = number.find(pair.a);
     const auto b = number.find(pair.b);
     if (a == number.end() || b == number.end()) continue;
+    const bool join = pair.verdict == match::name_of(match::Verdict::Join);
     for (const store::Candidate& candidate : run.candidates(pair)) {
-      input.links.push_back({a->second, b->second, candidate.pose, candidate.score});
+      const bool holds =
+          join || candidate.score < match::kSure;  // else only its stability kept the verdict from "join"
+      input.links.push_back({a->second, b->second, candidate.pose, candidate.score, holds});
     }
   }
   return input;

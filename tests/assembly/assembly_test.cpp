@@ -112,6 +112,22 @@ TEST(Assemble, AnUnsureJoinIsNotUsedAlone) {
   EXPECT_NE(result.placements[corner.a].reason.find("no join is sure"), std::string::npos);
 }
 
+TEST(Assemble, AJoinOfHighScoreThatDoesNotHoldNeedsAWitness) {
+  const Corner corner = corner_of(ball());
+  std::vector<Link> links{ball().true_link(corner.a, corner.b, 0.9999)};
+  EXPECT_EQ(run(ball(), links).groups, 1);
+  links.front().holds = false;
+  const Result alone = run(ball(), links);
+  EXPECT_EQ(alone.groups, 0);
+  EXPECT_NE(alone.placements[corner.a].reason.find("another pose of the two is nearly as good"),
+            std::string::npos);
+  links.push_back(ball().true_link(corner.b, corner.c, 0.9999));
+  links.push_back(ball().true_link(corner.c, corner.a, 0.7));
+  const Result held = run(ball(), links);
+  EXPECT_EQ(held.placements[corner.a].group, 0);
+  EXPECT_LT(ball().worst_turn(held), 0.5);
+}
+
 TEST(Assemble, UnsureJoinsThatCloseALoopAreUsed) {
   const Corner corner = corner_of(ball());
   const std::vector<Link> loop{ball().true_link(corner.a, corner.b, 0.7),
