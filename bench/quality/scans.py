@@ -51,6 +51,17 @@ def moved(m, p):
     return [sum(m[i][k] * p[k] for k in range(3)) + m[i][3] for i in range(3)]
 
 
+def turned_about(m, axis, degrees, centre):
+    """A motion, then a turn about an axis (of any length) through a point."""
+    x, y, z = (value / math.hypot(*axis) for value in axis)
+    c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    turn = [[c + x * x * (1 - c), x * y * (1 - c) - z * s, x * z * (1 - c) + y * s],
+            [y * x * (1 - c) + z * s, c + y * y * (1 - c), y * z * (1 - c) - x * s],
+            [z * x * (1 - c) - y * s, z * y * (1 - c) + x * s, c + z * z * (1 - c)]]
+    shift = [centre[i] - sum(turn[i][k] * centre[k] for k in range(3)) for i in range(3)]
+    return product([turn[i] + [shift[i]] for i in range(3)] + [[0.0, 0.0, 0.0, 1.0]], m)
+
+
 def corners(program, scan, folder):
     """The corners of a scan's box in file coordinates, read from the PLY that `rejoin facets` writes of it."""
     copy = Path(folder) / "box.ply"

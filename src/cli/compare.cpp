@@ -9,29 +9,12 @@
 #include "cli/command.hpp"
 #include "cli/fragment.hpp"
 #include "cli/interrupt.hpp"
-#include "cli/json_values.hpp"
+#include "cli/pose_file.hpp"
 #include "core/files.hpp"
 #include "report/compare_report.hpp"
 
 namespace rejoin::cli {
 namespace {
-
-using nlohmann::ordered_json;
-
-constexpr const char* kMend = "give the JSON of rejoin match";
-
-/// The 4 x 4 matrix of a file: rejoin match's JSON, or the bare rows.
-/// \throws IoError it cannot be read   \throws InputError it holds no proper rigid motion
-Rigid read_pose(const std::string& path) {
-  const ordered_json json = ordered_json::parse(read_json_text(path, kMend), nullptr, false);
-  if (json.is_discarded()) throw InputError(path, "is no JSON", kMend);
-  const ordered_json& rows = json.is_object() && json.contains("pose") ? json["pose"] : json;
-  const std::optional<Rigid> pose = rigid_from_json(rows);
-  if (!pose) {
-    throw InputError(path, fmt::format("\"pose\" {}", kNoRigid), kMend);
-  }
-  return *pose;
-}
 
 class CompareCommand final : public Command {
  public:
@@ -40,7 +23,7 @@ class CompareCommand final : public Command {
         ->required()
         ->group("Input");
     app.add_option("B", path_b_, "scan of the other fragment")->required()->group("Input");
-    app.add_option("--pose", pose_, "JSON with \"pose\", B's coordinates to A's")
+    app.add_option("--pose", pose_, "B's coordinates to A's: JSON with \"pose\", or 4 x 4 numbers")
         ->type_name("FILE")
         ->required()
         ->group("Input");

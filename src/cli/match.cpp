@@ -13,6 +13,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/match_json.hpp"
 #include "cli/match_options.hpp"
+#include "cli/pose_file.hpp"
 #include "core/files.hpp"
 #include "match/units.hpp"
 #include "mesh/save.hpp"
@@ -52,9 +53,11 @@ std::string percent(double share) {
   return std::isfinite(share) ? fmt::format("{:.0f} %", 100.0 * share) : std::string("not measured");
 }
 
-std::string summary(const match::Result& result) {
+/// \param near  whether poses near a rough one alone were looked at
+std::string summary(const match::Result& result, bool near) {
   if (result.candidates.empty()) {
-    return result.cancelled ? "interrupted before a pose was found\n" : "no join, no pose was found\n";
+    if (result.cancelled) return "interrupted before a pose was found\n";
+    return near ? "no join, no pose near the rough one fits\n" : "no join, no pose was found\n";
   }
   const match::Candidate& best = result.candidates.front();
   const match::JointError& error = best.error;
@@ -97,6 +100,8 @@ class MatchCommand final : public Command {
         ->group("Input");
     app.option_defaults()->group("Search");
     add_choice(app, "--propose", by_rims_, kProposers, "what proposes poses; rims: of thin sherds");
+    app.add_option("--near", near_, "look near a rough pose, as of --json or 4 x 4 numbers")
+        ->type_name("FILE");
     options_.define(app);
   }
 
@@ -104,6 +109,7 @@ class MatchCommand final : public Command {
     const auto begin = std::chrono::steady_clock::now();
     match::Options options = options_.values();
     require_free_search(options);
+    if (near_) options.near = read_pose(*near_);
     require_two_files(path_a_, path_b_);
     if (json_) require_writable_file(*json_);
     if (out_) require_writable_folder(*out_);
@@ -133,7 +139,7 @@ class MatchCommand final : public Command {
     tell_times(console, a, b, result);
     const double seconds = seconds_since(begin);
     if (json_) write_file(*json_, match_json(a, b, options, result, seconds));
-    console.result(summary(result));
+    console.result(summary(result, near_.has_value()));
     if (json_) console.wrote(*json_);
     if (out_) write_folder(console, a, b, result);
     return result.cancelled ? kInterrupted : kDone;
@@ -142,6 +148,8 @@ class MatchCommand final : public Command {
  private:
   /// Rims propose whole poses: what restricts facets has nothing to restrict.
   void require_free_search(const match::Options& options) const {
+    if (near_ && options.search == match::Search::Esa)
+      throw UsageError("--near", "goes with --search sweep", "leave out one of the two");
     if (!by_rims_) return;
     if (options.search == match::Search::Esa) {
       throw UsageError("--propose rims", "goes with --search sweep", "leave out one of the two");
@@ -193,6 +201,7 @@ class MatchCommand final : public Command {
   std::vector<std::string> painted_;
   std::optional<std::string> json_;
   std::optional<std::string> out_;
+  std::optional<std::string> near_;
   bool by_rims_ = false;
   MatchOptions options_;
 };

@@ -57,6 +57,7 @@ ordered_json search_json(const match::Options& options, const match::Result& res
           {"material_b", options.material_b ? to_json(*options.material_b) : ordered_json()},
           {"facets_a", options.facets_a},
           {"facets_b", options.facets_b},
+          {"near", options.near ? to_json(*options.near) : ordered_json()},
           {"resolution", options.resolution},
           {"chains", options.chains},
           {"seed", options.seed},

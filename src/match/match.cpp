@@ -10,6 +10,7 @@
 #include "match/align.hpp"
 #include "match/cuts.hpp"
 #include "match/esa_search.hpp"
+#include "match/near.hpp"
 #include "match/refine.hpp"
 #include "match/stability.hpp"
 #include "match/sweep.hpp"
@@ -67,10 +68,11 @@ bool axes_agree(const Rigid& pose, const Options& options) {
 }
 
 std::vector<Hypothesis> run_sweep(const Fragment& a, const Fragment& b, const Options& options,
-                                  const Context& context, Result& result) {
+                                  const std::optional<Near>& near, const Context& context, Result& result) {
   SweepOptions sweep_options;
   sweep_options.facets_a = allowed_facets(a, options.facets_a, options.directions_a, options);
   sweep_options.facets_b = allowed_facets(b, options.facets_b, options.directions_b, options);
+  sweep_options.near = near;
   const SweepResult swept = sweep(a, b, sweep_options, context);
   result.evaluations = swept.evaluations;
   std::vector<Hypothesis> hypotheses;
@@ -104,10 +106,17 @@ std::vector<Hypothesis> run_esa(const Fragment& a, const Fragment& b, const Opti
   return hypotheses;
 }
 
+void keep_near(std::vector<Hypothesis>& hypotheses, const Near& near) {
+  const auto far = [&](const Hypothesis& hypothesis) { return !near.holds(hypothesis.pose); };
+  hypotheses.erase(std::remove_if(hypotheses.begin(), hypotheses.end(), far), hypotheses.end());
+}
+
+/// \param near  what has moved away from it is dropped
 void align(std::vector<Hypothesis>& hypotheses, const Joint& joint, const Fragment& a, const Fragment& b,
-           std::span<const Pass> rounds, const Context& context) {
+           const std::optional<Near>& near, std::span<const Pass> rounds, const Context& context) {
   for (const Pass& pass : rounds) {
     refine(hypotheses, joint, pass, context);
+    if (near) keep_near(hypotheses, *near);
     hypotheses = distinct(hypotheses, b, std::max(a.diameter, b.diameter), pass.kept);
     if (context.cancelled()) break;
   }
@@ -157,23 +166,30 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
   clock.lap("prepare");
 
   context.report("search", 0.0);
+  std::optional<Near> near;
+  if (options.near) near.emplace(a, b, *options.near);
   auto hypotheses = !options.proposals.empty()        ? proposed(a, b, options)
-                    : options.search == Search::Sweep ? run_sweep(a, b, options, context, result)
+                    : options.search == Search::Sweep ? run_sweep(a, b, options, near, context, result)
                                                       : run_esa(a, b, options, context, result);
+  if (near) {
+    keep_near(hypotheses, *near);
+    hypotheses.push_back({near->pose(), {}, 0.0, -1, -1});
+  }
   clock.lap("search");
 
   context.report("align", 0.5);
   const auto rounds = passes(joint.tolerance(), options.max_candidates);
-  align(hypotheses, joint, a, b, std::span(rounds).first(kGlance), context);
+  align(hypotheses, joint, a, b, near, std::span(rounds).first(kGlance), context);
   result.promise = strongest(hypotheses);
   if (options.promising_only && result.promise < (both_thin(a, b) ? kWorthwhileThin : kWorthwhile)) {
     clock.lap("align");
     give_up(a, b, hypotheses, context, result);
     return result;
   }
-  if (!context.cancelled()) align(hypotheses, joint, a, b, std::span(rounds).subspan(kGlance), context);
+  if (!context.cancelled()) align(hypotheses, joint, a, b, near, std::span(rounds).subspan(kGlance), context);
   hypotheses.resize(std::min(hypotheses.size(), static_cast<std::size_t>(options.max_candidates)));
   if (!context.cancelled()) tighten(hypotheses, joint, b, std::max(a.diameter, b.diameter));
+  if (near) keep_near(hypotheses, *near);
   weigh(hypotheses, joint);
   clock.lap("align");
 

@@ -38,6 +38,8 @@ struct Options {
   std::vector<int> facets_b;
   /// Poses to align instead of searching, B's file coordinates -> A's; empty: search.
   std::vector<Rigid> proposals;
+  /// A rough pose, B's file coordinates -> A's: it and poses near it (match/near.hpp) are looked at alone.  Not for Search::Esa.
+  std::optional<Rigid> near;
   int resolution = 128;  ///< pixels across a depth map of a whole fragment
   zbuffer::Backend backend = zbuffer::Backend::Auto;
   int chains = 8;  ///< independent annealing chains

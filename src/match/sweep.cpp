@@ -23,6 +23,7 @@ constexpr double kWorthALook = 1.3;  // and at least: looks with hardly larger p
 constexpr double kTurnsKept = 0.15;  // share of a first look's turns that get a second
 constexpr std::size_t kLeastTurns = 3;
 constexpr double kSlack = 0.25;  // of a step of the second look, by which its turns may lie further apart
+constexpr int kPeaksNear = 200;  // a turn, where all but those near a rough pose are dropped
 constexpr double kSmallFacet = 0.02;  // of the largest facet's area: too small to tell
 
 double mean_width(const FacetPatch& patch) {
@@ -57,11 +58,26 @@ std::vector<double> turns_for(const FacetPatch& a, const FacetPatch& b, double s
   return turns;
 }
 
+/// Rotation of b's patch against a's frame: the half turn, then the turn.
+glm::dmat3 facing(double turn_rad) {
+  const glm::dmat3 half_turn(-1, 0, 0, 0, 1, 0, 0, 0, -1);
+  return axis_rotation({0, 0, 1}, turn_rad) * half_turn;
+}
+
+/// The turns that may come near the rough pose; all without one.
+std::vector<double> turns_near(const std::optional<Near>& near, const FacetPatch& a, const FacetPatch& b,
+                               std::vector<double> turns) {
+  if (!near) return turns;
+  const auto far = [&](double turn) {
+    return !near->may_become(a.frame * facing(turn) * glm::transpose(b.frame));
+  };
+  turns.erase(std::remove_if(turns.begin(), turns.end(), far), turns.end());
+  return turns;
+}
+
 /// Pose of a peak: the half turn, the turn, the shift; then the mean tilt; then contact at the mean height.
 Rigid pose_of_peak(const FacetPatch& a, const FacetPatch& b, const ReliefMap& map_a, const ReliefMap& map_b,
                    const Agreement& peak, double turn_rad) {
-  const glm::dmat3 half_turn(-1, 0, 0, 0, 1, 0, 0, 0, -1);
-  const glm::dmat3 turn = axis_rotation({0, 0, 1}, turn_rad) * half_turn;
   const glm::dvec2 shift = map_a.low - map_b.low + map_a.pitch * glm::dvec2(peak.shift_u, peak.shift_v);
   glm::dvec2 middle(0.0);
   double offset = 0.0;
@@ -82,7 +98,7 @@ Rigid pose_of_peak(const FacetPatch& a, const FacetPatch& b, const ReliefMap& ma
     middle /= count;
     offset /= count;
   }
-  const Rigid in_plane{turn, glm::dvec3(shift, offset)};
+  const Rigid in_plane{facing(turn_rad), glm::dvec3(shift, offset)};
   const double slope = glm::length(glm::dvec2(peak.tilt));
   Rigid tilt;
   if (slope > 1e-9) {
@@ -152,11 +168,12 @@ std::vector<ReliefMap> turned_maps(const FacetPatch& b, double pitch, const std:
   return maps;
 }
 
-/// Of turns all around, those at which the patches agree best, each as `parts` of its step.
+/// Of turns all around (near the rough pose, if there is one), those at which the patches agree best, each as `parts` of its step.
 /// \param evaluations  poses looked at are added
 std::vector<double> best_turns(const FacetPatch& a, const FacetPatch& b, double pitch,
-                               const std::vector<double>& turns, int parts, const Context& context,
-                               long& evaluations) {
+                               const std::vector<double>& all_around, int parts,
+                               const std::optional<Near>& near, const Context& context, long& evaluations) {
+  const std::vector<double> turns = turns_near(near, a, b, all_around);
   const std::vector<ReliefMap> maps = turned_maps(b, pitch, turns, context);
   Correlator correlator(relief_of(a, pitch), {.most_peaks = 1});
   std::vector<std::pair<float, std::size_t>> ranked;
@@ -167,9 +184,10 @@ std::vector<double> best_turns(const FacetPatch& a, const FacetPatch& b, double 
     if (!peaks.empty()) ranked.emplace_back(-peaks.front().score, t);
   }
   std::sort(ranked.begin(), ranked.end());
-  const auto wanted = static_cast<std::size_t>(std::ceil(kTurnsKept * static_cast<double>(turns.size())));
+  const auto wanted =
+      static_cast<std::size_t>(std::ceil(kTurnsKept * static_cast<double>(all_around.size())));
   ranked.resize(std::min(ranked.size(), std::max(kLeastTurns, wanted)));
-  const double part = 2.0 * kPi / static_cast<double>(turns.size()) / parts;
+  const double part = 2.0 * kPi / static_cast<double>(all_around.size()) / parts;
   std::vector<double> finer;
   for (const auto& [score, t] : ranked) {
     for (int k = 0; k < parts; ++k) finer.push_back(turns[t] + part * (k - 0.5 * (parts - 1)));
@@ -189,22 +207,27 @@ SweepResult correlate_patches(const Task& task, double resolution, const SweepOp
   SweepResult result;
   std::vector<double> turns;
   if (are_strips(a, b) || kCoarse * wanted < kWorthALook * pitch) {
-    turns = turns_for(a, b, step);
+    turns = turns_near(options.near, a, b, turns_for(a, b, step));
   } else {
     const double coarse_pitch = kCoarse * wanted;
     const double coarse_step = turn_step(a, b, coarse_pitch, options.turn_step_px);
     const int parts = static_cast<int>(std::ceil(coarse_step / step - kSlack));
-    turns = best_turns(a, b, coarse_pitch, turns_for(a, b, coarse_step), parts, context, result.evaluations);
+    turns = best_turns(a, b, coarse_pitch, turns_for(a, b, coarse_step), parts, options.near, context,
+                       result.evaluations);
   }
+  if (turns.empty()) return result;
 
   const ReliefMap map_a = relief_of(a, pitch);
   const std::vector<ReliefMap> maps_b = turned_maps(b, pitch, turns, context);
-  Correlator correlator(map_a, CorrelateOptions{});
+  CorrelateOptions peaks;
+  if (options.near) peaks.most_peaks = kPeaksNear;
+  Correlator correlator(map_a, peaks);
   for (const std::size_t t : correlator.cheapest_order(maps_b)) {
     if (context.cancelled()) break;
     for (const Agreement& peak : correlator.peaks(maps_b[t])) {
-      result.hits.push_back({task.a->facet, task.b->facet, turns[t], pitch, peak,
-                             pose_of_peak(a, b, map_a, maps_b[t], peak, turns[t])});
+      const Rigid pose = pose_of_peak(a, b, map_a, maps_b[t], peak, turns[t]);
+      if (!options.near || options.near->holds(pose))
+        result.hits.push_back({task.a->facet, task.b->facet, turns[t], pitch, peak, pose});
     }
     result.evaluations += correlator.shifts();
   }

@@ -1,12 +1,14 @@
 /// The sweep: all turns and shifts of facet against facet.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/context.hpp"
 #include "core/rigid.hpp"
 #include "match/correlate.hpp"
 #include "match/match.hpp"
+#include "match/near.hpp"
 
 namespace rejoin::match {
 
@@ -23,6 +25,7 @@ struct SweepHit {
 struct SweepOptions {
   std::vector<int> facets_a;  ///< facets that may join (match/cuts.hpp); empty: all fracture facets
   std::vector<int> facets_b;
+  std::optional<Near> near;     ///< only hits that hold near a rough pose
   double turn_step_px = 2.0;    ///< how far the end of the shorter facet moves between turns, pixels
   int per_pair_of_facets = 24;  ///< peaks kept a pair of facets
   int most = 600;               ///< peaks kept in all

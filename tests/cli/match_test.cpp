@@ -1,5 +1,6 @@
 /// rejoin match as a whole, on a block cut along a known surface.
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -116,6 +117,38 @@ TEST_F(MatchCommand, PaintThatLiesOnNeitherScanIsRefusedByName) {
   const Finished without_colours = run({"match", a, b, "--facets", a});
   EXPECT_EQ(without_colours.exit_code, 1);
   EXPECT_NE(without_colours.err.find("colours"), std::string::npos) << without_colours.err;
+}
+
+// Sixteen numbers, as CloudCompare shows them, and the JSON of an earlier match are the same pose.
+TEST_F(MatchCommand, LooksNearARoughPoseGivenAsNumbersOrAsJson) {
+  std::string rows;
+  ordered_json matrix = ordered_json::array();
+  for (int row = 0; row < 3; ++row) {
+    const glm::dmat3& turn = pair.truth.rotation;
+    const double shift = pair.truth.translation[row] + 1.0;
+    rows +=
+        fmt::format("{:.17g} {:.17g}\t{:.17g} {:.17g}\r\n", turn[0][row], turn[1][row], turn[2][row], shift);
+    matrix.push_back({turn[0][row], turn[1][row], turn[2][row], shift});
+  }
+  matrix.push_back({0, 0, 0, 1});
+  write_file(folder / "rough.txt", rows + "0 0 0 1\n");
+  write_file(folder / "rough.json", ordered_json({{"pose", matrix}}).dump());
+  const ordered_json by_numbers = result_of({"match", a, b, "--near", folder / "rough.txt"});
+  const ordered_json by_json = result_of({"match", a, b, "--near", folder / "rough.json"});
+  EXPECT_EQ(by_numbers["verdict"], "join");
+  EXPECT_EQ(by_numbers["pose"], by_json["pose"]);
+  EXPECT_EQ(by_numbers["search"]["near"], by_json["search"]["near"]);
+  EXPECT_TRUE(result_of({"match", a, b})["search"]["near"].is_null());
+}
+
+TEST_F(MatchCommand, ARoughPoseThatIsNoneOrHasNoUseIsRefused) {
+  write_file(folder / "rough.txt", "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n1\n");
+  const Finished seventeen = run({"match", a, b, "--near", folder / "rough.txt"});
+  EXPECT_EQ(seventeen.exit_code, 1);
+  EXPECT_NE(seventeen.err.find("rough.txt"), std::string::npos) << seventeen.err;
+  EXPECT_NE(seventeen.err.find("four rows of four numbers"), std::string::npos) << seventeen.err;
+  write_file(folder / "rough.txt", "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+  EXPECT_EQ(run({"match", a, b, "--near", folder / "rough.txt", "--search", "esa"}).exit_code, 2);
 }
 
 TEST_F(MatchCommand, FacetThatIsNotThereIsWrongUse) {

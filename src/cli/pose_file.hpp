@@ -1,0 +1,15 @@
+/// Poses that a user gives in a file.
+#pragma once
+
+#include <string>
+
+#include "core/rigid.hpp"
+
+namespace rejoin::cli {
+
+/// The 4 x 4 matrix of a file, row by row: the "pose" of rejoin match's JSON, a bare JSON array of rows, or sixteen numbers as
+/// CloudCompare copies and saves them.
+/// \throws IoError it cannot be read   \throws InputError it holds no proper rigid motion
+Rigid read_pose(const std::string& path);
+
+}  // namespace rejoin::cli
