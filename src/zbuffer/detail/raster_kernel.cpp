@@ -20,6 +20,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Floats = hn::CappedTag<float, kSoupBlock>;
 using Ints = hn::Rebind<std::int32_t, Floats>;
+using Unsigneds = hn::RebindToUnsigned<Ints>;
 using FloatV = hn::Vec<Floats>;
 using IntV = hn::Vec<Ints>;
 using IntM = hn::Mask<Ints>;
@@ -31,11 +32,29 @@ constexpr int kSmall = 24;
 constexpr int kNarrow = 1 << 15;
 static_assert(kSmall * kSubpixels < kNarrow);
 
-/// Pixels that small triangles cover: a vector of triangles yields at most kSmall^2 times its lanes.
+/// Pixels that small triangles cover and that the map does not know yet.  They wait for those of other triangles, so that
+/// nothing reads them right after they were written, and that the end of the loop over them is mispredicted once for many.
 struct Fragments {
-  HWY_ALIGN std::int32_t index[(kSmall * kSmall + 1) * kSoupBlock];
-  HWY_ALIGN float depth[(kSmall * kSmall + 1) * kSoupBlock];
+  static constexpr std::size_t kEnough = 1024;
+  /// A vector of triangles yields at most kSmall^2 times its lanes, and another vector may be written behind the last.
+  static constexpr std::size_t kRoom = kEnough + (kSmall * kSmall + 1) * kSoupBlock;
+
+  std::size_t count = 0;
+  HWY_ALIGN std::uint32_t index[kRoom];
+  HWY_ALIGN float depth[kRoom];
 };
+
+HWY_INLINE void flush(Fragments& fragments, float* map) {
+#pragma GCC unroll 4
+  for (std::size_t k = 0; k < fragments.count; ++k) {
+    // By value, so that the compiler takes a minimum instead of a branch that nothing can predict.
+    float& pixel = map[fragments.index[k]];
+    const float before = pixel;
+    const float depth = fragments.depth[k];
+    pixel = depth < before ? depth : before;
+  }
+  fragments.count = 0;
+}
 
 /// A vector of triangles on the grid of fixed_triangle.hpp.
 struct Corners {
@@ -124,8 +143,7 @@ HWY_INLINE IntV least_of(IntV dx, IntV dy) {
 }
 
 /// Draws the triangles of `small` in step: all visit the k-th pixel of their boxes at once.
-HWY_INLINE std::size_t collect(Corners c, IntV area2, const Boxes& box, IntM small, int width,
-                               Fragments& to) {
+HWY_INLINE void collect(Corners c, IntV area2, const Boxes& box, IntM small, int width, Fragments& to) {
   const Floats df;
   const Ints d;
   const auto clockwise = hn::Lt(area2, hn::Zero(d));
@@ -160,7 +178,7 @@ HWY_INLINE std::size_t collect(Corners c, IntV area2, const Boxes& box, IntM sma
   const auto columns_left = hn::IfThenElse(small, box.more_columns, hn::Set(d, -1));
   auto row_index = hn::Add(hn::Mul(box.top, hn::Set(d, width)), box.left);
   const auto one = hn::Set(d, 1);
-  std::size_t count = 0;
+  std::size_t count = to.count;
   while (!hn::AllTrue(d, hn::Lt(rows_left, hn::Zero(d)))) {
     auto e0 = row0, e1 = row1, e2 = row2, left = columns_left, index = row_index;
     while (!hn::AllTrue(d, hn::Lt(left, hn::Zero(d)))) {
@@ -170,7 +188,7 @@ HWY_INLINE std::size_t collect(Corners c, IntV area2, const Boxes& box, IntM sma
       const auto inside = hn::Gt(outside, hn::Set(d, -1));
       const auto depth = hn::Add(
           c.z0, hn::Add(hn::Mul(hn::ConvertTo(df, e1), rise1), hn::Mul(hn::ConvertTo(df, e2), rise2)));
-      hn::StoreU(to_front(index, inside), d, to.index + count);
+      hn::StoreU(hn::BitCast(Unsigneds(), to_front(index, inside)), Unsigneds(), to.index + count);
       hn::StoreU(to_front(depth, inside), df, to.depth + count);
       count += hn::CountTrue(d, inside);
       e0 = hn::Sub(e0, hn::ShiftLeft<10>(dy0));
@@ -185,7 +203,7 @@ HWY_INLINE std::size_t collect(Corners c, IntV area2, const Boxes& box, IntM sma
     rows_left = hn::Sub(rows_left, one);
     row_index = hn::Add(row_index, hn::Set(d, width));
   }
-  return count;
+  to.count = count;
 }
 
 /// Draws the triangles of `lanes` one by one.
@@ -245,14 +263,8 @@ HWY_INLINE void draw_vector(const float* at, Sides sides, const Projection& proj
                                                       : hn::Lt(area2, zero);
   const auto small = hn::And(hn::And(fits, visible), turned_here);
   if (hn::AllFalse(d, small)) return;
-  const std::size_t count = collect(c, area2, box, small, canvas.width, fragments);
-  for (std::size_t k = 0; k < count; ++k) {
-    // By value, so that the compiler takes a minimum instead of a branch that nothing can predict.
-    float& pixel = canvas.depth[fragments.index[k]];
-    const float before = pixel;
-    const float depth = fragments.depth[k];
-    pixel = depth < before ? depth : before;
-  }
+  collect(c, area2, box, small, canvas.width, fragments);
+  if (fragments.count >= Fragments::kEnough) flush(fragments, canvas.depth);
 }
 
 const char* target_name() {
@@ -280,6 +292,7 @@ void draw_blocks(const TriangleSoup& soup, const Projection& projection, const C
   for (const float* end = soup.blocks.data() + soup.blocks.size(); block != end; block += 9 * kSoupBlock) {
     draw_block(block, Sides::Both, projection, canvas, fragments);
   }
+  flush(fragments, canvas.depth);
 }
 
 }  // namespace rejoin::zbuffer::detail::HWY_NAMESPACE
