@@ -56,16 +56,17 @@ HWY_INLINE void flush(Fragments& fragments, float* map) {
   fragments.count = 0;
 }
 
-/// A vector of triangles on the grid of fixed_triangle.hpp.
-struct Corners {
-  IntV x0, y0, x1, y1, x2, y2;
-  FloatV z0, z1, z2;
-};
+/// Corners closer to the map's origin than this many pixels are rounded to the grid by one addition.
+constexpr float kNear = 4000.0F;
+/// A float of this size has steps of 1: whoever adds a smaller number has the nearest integer in the lowest bits.
+constexpr float kRounder = 12582912.0F;
+constexpr std::int32_t kRounderBits = 0x4B400000;
+static_assert(kNear * kSubpixels < kRounder / 3);
 
-/// Pixels whose centres lie in the triangles' boxes and on the canvas: first column and row, and how many
-/// more follow (negative: none).
-struct Boxes {
-  IntV left, top, more_columns, more_rows;
+/// One corner of each of a vector of triangles, on the grid of fixed_triangle.hpp.
+struct Corner {
+  IntV x, y;  ///< kRounderBits more than they are: it cancels in differences
+  FloatV z;
 };
 
 /// The same operations in the same order as Projection.
@@ -75,23 +76,34 @@ HWY_INLINE FloatV row_of(const Projection& p, int r, FloatV x, FloatV y, FloatV 
   return hn::Add(hn::Add(sum, hn::Mul(hn::Set(d, p.linear[2][r]), z)), hn::Set(d, p.offset[r]));
 }
 
-HWY_INLINE void corner_of(const float* at, const Projection& p, IntV& x, IntV& y, FloatV& z) {
+template <bool kAllNear>
+HWY_INLINE IntV to_grid(FloatV steps) {
+  const Ints d;
+  if constexpr (kAllNear) return hn::BitCast(d, hn::Add(steps, hn::Set(Floats(), kRounder)));
+  return hn::Add(hn::NearestInt(steps), hn::Set(d, kRounderBits));
+}
+
+/// \param p  to grid steps in x and y
+template <bool kAllNear>
+HWY_INLINE Corner corner_of(const float* at, const Projection& p) {
   const Floats d;
-  const auto grid = hn::Set(d, static_cast<float>(kSubpixels));
-  const auto vx = hn::LoadU(d, at);
-  const auto vy = hn::LoadU(d, at + kSoupBlock);
-  const auto vz = hn::LoadU(d, at + 2 * kSoupBlock);
-  x = hn::NearestInt(hn::Mul(row_of(p, 0, vx, vy, vz), grid));
-  y = hn::NearestInt(hn::Mul(row_of(p, 1, vx, vy, vz), grid));
-  z = row_of(p, 2, vx, vy, vz);
+  const auto x = hn::LoadU(d, at);
+  const auto y = hn::LoadU(d, at + kSoupBlock);
+  const auto z = hn::LoadU(d, at + 2 * kSoupBlock);
+  return {to_grid<kAllNear>(row_of(p, 0, x, y, z)), to_grid<kAllNear>(row_of(p, 1, x, y, z)),
+          row_of(p, 2, x, y, z)};
 }
 
 /// First pixel whose centre is not below the grid coordinate; last one not above it.
 HWY_INLINE IntV first_centre(IntV low) {
-  return hn::ShiftRight<10>(hn::Add(low, hn::Set(Ints(), kSubpixels / 2 - 1)));
+  return hn::ShiftRight<10>(hn::Add(low, hn::Set(Ints(), kSubpixels / 2 - 1 - kRounderBits)));
 }
 HWY_INLINE IntV last_centre(IntV high) {
-  return hn::ShiftRight<10>(hn::Sub(high, hn::Set(Ints(), kSubpixels / 2)));
+  return hn::ShiftRight<10>(hn::Sub(high, hn::Set(Ints(), kSubpixels / 2 + kRounderBits)));
+}
+/// Grid coordinate of the centre.
+HWY_INLINE IntV centre_in(IntV pixel) {
+  return hn::Add(hn::ShiftLeft<10>(pixel), hn::Set(Ints(), kSubpixels / 2 + kRounderBits));
 }
 static_assert(kSubpixels == 1 << 10);
 
@@ -129,170 +141,310 @@ HWY_INLINE V to_front(V vector, IntM chosen) {
 }
 #endif
 
-/// E at the first pixel of the box of the edge (dx, dy) that starts at (x, y).
-HWY_INLINE IntV edge_at(IntV dx, IntV dy, IntV x, IntV y, IntV px, IntV py) {
-  return hn::Sub(hn::Mul(dx, hn::Sub(py, y)), hn::Mul(dy, hn::Sub(px, x)));
-}
+/// An edge function of each of a vector of triangles.
+struct WalkEdge {
+  HWY_ALIGN std::int32_t start[kSoupBlock];   ///< E at the first pixel of the box
+  HWY_ALIGN std::int32_t row[kSoupBlock];     ///< E grows by with a row
+  HWY_ALIGN std::int32_t column[kSoupBlock];  ///< E falls by with a column
+  HWY_ALIGN std::int32_t least[kSoupBlock];   ///< Edge::least()
+};
 
-/// Edge::least().
-HWY_INLINE IntV least_of(IntV dx, IntV dy) {
-  const Ints d;
-  const auto zero = hn::Zero(d);
-  const auto belongs = hn::Or(hn::Lt(dy, zero), hn::And(hn::Eq(dy, zero), hn::Lt(dx, zero)));
-  return hn::IfThenElse(belongs, zero, hn::Set(d, 1));
-}
+/// A vector of small triangles that are ready to walk the pixels of their boxes in step: all are at the k-th row and
+/// column of their box at once.
+struct Walk {
+  WalkEdge edges[3];                                ///< the k-th lies opposite of corner k
+  HWY_ALIGN float depth[kSoupBlock];                ///< of corner 0
+  HWY_ALIGN float rise[2][kSoupBlock];              ///< of the depth with the functions of edges 1 and 2
+  HWY_ALIGN std::int32_t index[kSoupBlock];         ///< in the map, of the first pixel of the box
+  HWY_ALIGN std::int32_t more_columns[kSoupBlock];  ///< as in Boxes
+  HWY_ALIGN std::int32_t more_rows[kSoupBlock];
+  int last_column;  ///< that any of the triangles has
+  int last_row;
+  bool clipped;  ///< Not all of the triangles lie on the map as a whole.
+};
 
-/// Draws the triangles of `small` in step: all visit the k-th pixel of their boxes at once.
-HWY_INLINE void collect(Corners c, IntV area2, const Boxes& box, IntM small, int width, Fragments& to) {
+/// -1 where the edge's least() is 0, else 0; for edges shorter than kNarrow.
+HWY_INLINE IntV holds_zero(IntV dx, IntV dy) {
+  return hn::ShiftRight<31>(hn::Add(hn::ShiftLeft<16>(dy), dx));
+}
+static_assert(kNarrow <= 1 << 15);
+
+/// Collects the pixels that the triangles cover.  Outside of its whole box a triangle covers nothing, so a lane may walk on
+/// there until all are done; only where a box was clipped it has to be stopped.
+template <bool kClipped>
+HWY_INLINE void take_walk(const Walk& walk, int width, Fragments& to) {
   const Floats df;
   const Ints d;
-  const auto clockwise = hn::Lt(area2, hn::Zero(d));
-  const auto flip = [&](auto& p, auto& q, auto mask) HWY_ATTR {
-    const auto kept = p;
-    p = hn::IfThenElse(mask, q, p);
-    q = hn::IfThenElse(mask, kept, q);
-  };
-  flip(c.x1, c.x2, clockwise);
-  flip(c.y1, c.y2, clockwise);
-  flip(c.z1, c.z2, hn::RebindMask(df, clockwise));
-  area2 = hn::Abs(area2);
-
-  const auto px = hn::Add(hn::ShiftLeft<10>(box.left), hn::Set(d, kSubpixels / 2));
-  const auto py = hn::Add(hn::ShiftLeft<10>(box.top), hn::Set(d, kSubpixels / 2));
-  const auto dx0 = hn::Sub(c.x2, c.x1), dy0 = hn::Sub(c.y2, c.y1);
-  const auto dx1 = hn::Sub(c.x0, c.x2), dy1 = hn::Sub(c.y0, c.y2);
-  const auto dx2 = hn::Sub(c.x1, c.x0), dy2 = hn::Sub(c.y1, c.y0);
-  auto row1 = edge_at(dx1, dy1, c.x2, c.y2, px, py);
-  auto row2 = edge_at(dx2, dy2, c.x0, c.y0, px, py);
-  auto row0 = hn::Sub(hn::Sub(area2, row1), row2);
-  const auto least0 = least_of(dx0, dy0), least1 = least_of(dx1, dy1), least2 = least_of(dx2, dy2);
-
-  // Weights are exact integers over the area, so a depth never leaves the range of the corners' depths by
-  // more than rounding, however thin the triangle.
-  const auto inverse = hn::Div(hn::Set(df, 1.0F), hn::ConvertTo(df, area2));
-  const auto rise1 = hn::Mul(hn::Sub(c.z1, c.z0), inverse);
-  const auto rise2 = hn::Mul(hn::Sub(c.z2, c.z0), inverse);
-
-  // Lanes that are not small get a negative term from the start, so that they never count as inside.
-  auto rows_left = hn::IfThenElse(small, box.more_rows, hn::Set(d, -1));
-  const auto columns_left = hn::IfThenElse(small, box.more_columns, hn::Set(d, -1));
-  auto row_index = hn::Add(hn::Mul(box.top, hn::Set(d, width)), box.left);
-  const auto one = hn::Set(d, 1);
+  const auto at = [&](const std::int32_t* values) HWY_ATTR { return hn::Load(d, values); };
+  const auto& [edge0, edge1, edge2] = walk.edges;
+  auto row0 = hn::Sub(at(edge0.start), at(edge0.least)), row1 = at(edge1.start), row2 = at(edge2.start);
+  const auto least1 = at(edge1.least), least2 = at(edge2.least);
+  const auto column0 = at(edge0.column), column1 = at(edge1.column), column2 = at(edge2.column);
+  const auto next0 = at(edge0.row), next1 = at(edge1.row), next2 = at(edge2.row);
+  const auto z0 = hn::Load(df, walk.depth), rise1 = hn::Load(df, walk.rise[0]),
+             rise2 = hn::Load(df, walk.rise[1]);
+  auto row_index = at(walk.index);
+  const int last_row = walk.last_row, last_column = walk.last_column;
   std::size_t count = to.count;
-  while (!hn::AllTrue(d, hn::Lt(rows_left, hn::Zero(d)))) {
-    auto e0 = row0, e1 = row1, e2 = row2, left = columns_left, index = row_index;
-    while (!hn::AllTrue(d, hn::Lt(left, hn::Zero(d)))) {
-      const auto outside =
-          hn::Or(hn::Or(hn::Or(hn::Sub(e0, least0), hn::Sub(e1, least1)), hn::Sub(e2, least2)),
-                 hn::Or(left, rows_left));
+  for (int j = 0; j <= last_row; ++j) {
+    auto e0 = row0, e1 = row1, e2 = row2, index = row_index;
+    for (int i = 0; i <= last_column; ++i) {
+      auto outside = hn::Or3(e0, hn::Sub(e1, least1), hn::Sub(e2, least2));
+      if constexpr (kClipped) {
+        outside = hn::Or3(outside, hn::Sub(at(walk.more_columns), hn::Set(d, i)),
+                          hn::Sub(at(walk.more_rows), hn::Set(d, j)));
+      }
       const auto inside = hn::Gt(outside, hn::Set(d, -1));
-      const auto depth = hn::Add(
-          c.z0, hn::Add(hn::Mul(hn::ConvertTo(df, e1), rise1), hn::Mul(hn::ConvertTo(df, e2), rise2)));
+      const auto depth =
+          hn::Add(z0, hn::Add(hn::Mul(hn::ConvertTo(df, e1), rise1), hn::Mul(hn::ConvertTo(df, e2), rise2)));
       hn::StoreU(hn::BitCast(Unsigneds(), to_front(index, inside)), Unsigneds(), to.index + count);
       hn::StoreU(to_front(depth, inside), df, to.depth + count);
       count += hn::CountTrue(d, inside);
-      e0 = hn::Sub(e0, hn::ShiftLeft<10>(dy0));
-      e1 = hn::Sub(e1, hn::ShiftLeft<10>(dy1));
-      e2 = hn::Sub(e2, hn::ShiftLeft<10>(dy2));
-      left = hn::Sub(left, one);
-      index = hn::Add(index, one);
+      e0 = hn::Sub(e0, column0);
+      e1 = hn::Sub(e1, column1);
+      e2 = hn::Sub(e2, column2);
+      index = hn::Add(index, hn::Set(d, 1));
     }
-    row0 = hn::Add(row0, hn::ShiftLeft<10>(dx0));
-    row1 = hn::Add(row1, hn::ShiftLeft<10>(dx1));
-    row2 = hn::Add(row2, hn::ShiftLeft<10>(dx2));
-    rows_left = hn::Sub(rows_left, one);
+    row0 = hn::Add(row0, next0);
+    row1 = hn::Add(row1, next1);
+    row2 = hn::Add(row2, next2);
     row_index = hn::Add(row_index, hn::Set(d, width));
   }
   to.count = count;
 }
 
 /// Draws the triangles of `lanes` one by one.
-HWY_NOINLINE void draw_alone(const Corners& c, IntM lanes, const Canvas& canvas) {
+HWY_NOINLINE void draw_alone(const Corner (&corners)[3], IntM lanes, const Canvas& canvas) {
   const Floats df;
   const Ints d;
-  HWY_ALIGN std::int32_t xy[6][kSoupBlock];
+  HWY_ALIGN std::int32_t x[3][kSoupBlock];
+  HWY_ALIGN std::int32_t y[3][kSoupBlock];
   HWY_ALIGN float z[3][kSoupBlock];
   HWY_ALIGN std::int32_t chosen[kSoupBlock];
-  hn::Store(c.x0, d, xy[0]);
-  hn::Store(c.y0, d, xy[1]);
-  hn::Store(c.x1, d, xy[2]);
-  hn::Store(c.y1, d, xy[3]);
-  hn::Store(c.x2, d, xy[4]);
-  hn::Store(c.y2, d, xy[5]);
-  hn::Store(c.z0, df, z[0]);
-  hn::Store(c.z1, df, z[1]);
-  hn::Store(c.z2, df, z[2]);
+  for (int k = 0; k < 3; ++k) {
+    hn::Store(hn::Sub(corners[k].x, hn::Set(d, kRounderBits)), d, x[k]);
+    hn::Store(hn::Sub(corners[k].y, hn::Set(d, kRounderBits)), d, y[k]);
+    hn::Store(corners[k].z, df, z[k]);
+  }
   hn::Store(hn::VecFromMask(d, lanes), d, chosen);
   for (std::size_t k = 0; k < hn::Lanes(d); ++k) {
     if (chosen[k] == 0) continue;
     FixedTriangle triangle{
-        {xy[0][k], xy[2][k], xy[4][k]}, {xy[1][k], xy[3][k], xy[5][k]}, {z[0][k], z[1][k], z[2][k]}, 0};
+        {x[0][k], x[1][k], x[2][k]}, {y[0][k], y[1][k], y[2][k]}, {z[0][k], z[1][k], z[2][k]}, 0};
     if (orient(triangle)) fill(triangle, canvas);
   }
 }
 
-/// The sides of triangles that are drawn, by the sign of their doubled areas.
-enum class Sides { Both, Positive, Negative };
+/// Pixels whose centres lie in the triangles' boxes and on the map.
+struct Boxes {
+  IntV left, top;
+  IntV more_columns, more_rows;  ///< that follow the first; negative: none
+  IntM visible;                  ///< has pixels
+  IntM fits;                     ///< can be drawn by a Walk
+  IntM whole;                    ///< lies on the map as a whole
+};
 
-/// Draws one vector of triangles whose first corner's x starts at `at`.
-HWY_INLINE void draw_vector(const float* at, Sides sides, const Projection& projection, const Canvas& canvas,
-                            Fragments& fragments) {
+HWY_INLINE Boxes boxes_of(const Corner& a, const Corner& b, const Corner& c, const Canvas& canvas) {
   const Ints d;
-  Corners c;
-  corner_of(at, projection, c.x0, c.y0, c.z0);
-  corner_of(at + 3 * kSoupBlock, projection, c.x1, c.y1, c.z1);
-  corner_of(at + 6 * kSoupBlock, projection, c.x2, c.y2, c.z2);
-  const auto low_x = hn::Min(hn::Min(c.x0, c.x1), c.x2), high_x = hn::Max(hn::Max(c.x0, c.x1), c.x2);
-  const auto low_y = hn::Min(hn::Min(c.y0, c.y1), c.y2), high_y = hn::Max(hn::Max(c.y0, c.y1), c.y2);
+  const auto low_x = hn::Min(hn::Min(a.x, b.x), c.x), high_x = hn::Max(hn::Max(a.x, b.x), c.x);
+  const auto low_y = hn::Min(hn::Min(a.y, b.y), c.y), high_y = hn::Max(hn::Max(a.y, b.y), c.y);
+  const auto left = first_centre(low_x), top = first_centre(low_y);
+  const auto right = last_centre(high_x), bottom = last_centre(high_y);
+  const auto last_column = hn::Set(d, canvas.width - 1), last_row = hn::Set(d, canvas.height - 1);
+  const auto not_negative = [&](IntV v) HWY_ATTR { return hn::Gt(v, hn::Set(d, -1)); };
   Boxes box;
-  box.left = hn::Max(first_centre(low_x), hn::Zero(d));
-  box.top = hn::Max(first_centre(low_y), hn::Zero(d));
-  box.more_columns = hn::Sub(hn::Min(last_centre(high_x), hn::Set(d, canvas.width - 1)), box.left);
-  box.more_rows = hn::Sub(hn::Min(last_centre(high_y), hn::Set(d, canvas.height - 1)), box.top);
-  const auto visible = hn::Gt(hn::Or(box.more_columns, box.more_rows), hn::Set(d, -1));
-  if (hn::AllFalse(d, visible)) return;
+  box.left = hn::Max(left, hn::Zero(d));
+  box.top = hn::Max(top, hn::Zero(d));
+  box.more_columns = hn::Sub(hn::Min(right, last_column), box.left);
+  box.more_rows = hn::Sub(hn::Min(bottom, last_row), box.top);
+  box.visible = not_negative(hn::Or(box.more_columns, box.more_rows));
   const auto extent = hn::Max(hn::Sub(high_x, low_x), hn::Sub(high_y, low_y));
-  const auto fits = hn::And(hn::Lt(hn::Max(box.more_columns, box.more_rows), hn::Set(d, kSmall)),
-                            hn::Lt(extent, hn::Set(d, kNarrow)));
-  if (!hn::AllTrue(d, hn::Or(fits, hn::Not(visible)))) draw_alone(c, hn::AndNot(fits, visible), canvas);
-  const auto area2 = hn::Sub(hn::Mul(hn::Sub(c.x1, c.x0), hn::Sub(c.y2, c.y0)),
-                             hn::Mul(hn::Sub(c.x2, c.x0), hn::Sub(c.y1, c.y0)));
-  const auto zero = hn::Zero(d);
-  const auto turned_here = sides == Sides::Both       ? hn::Ne(area2, zero)
-                           : sides == Sides::Positive ? hn::Gt(area2, zero)
-                                                      : hn::Lt(area2, zero);
-  const auto small = hn::And(hn::And(fits, visible), turned_here);
-  if (hn::AllFalse(d, small)) return;
-  collect(c, area2, box, small, canvas.width, fragments);
-  if (fragments.count >= Fragments::kEnough) flush(fragments, canvas.depth);
+  box.fits = hn::And(hn::Lt(hn::Max(box.more_columns, box.more_rows), hn::Set(d, kSmall)),
+                     hn::Lt(extent, hn::Set(d, kNarrow)));
+  box.whole =
+      not_negative(hn::Or(hn::Or3(left, top, hn::Sub(last_column, right)), hn::Sub(last_row, bottom)));
+  return box;
 }
+
+/// Counter-clockwise triangles.
+struct Shapes {
+  IntV dx1, dy1, dx2, dy2;  ///< of edges 1 and 2
+  IntV area2;               ///< twice the area; <= 0: not to be drawn
+  FloatV z0, z1, z2;
+};
+
+template <bool kOneSided>
+HWY_INLINE Shapes shapes_of(const Corner& a, const Corner& b, const Corner& c) {
+  const Floats df;
+  const Ints d;
+  Shapes t{.dx1 = hn::Sub(a.x, c.x),
+           .dy1 = hn::Sub(a.y, c.y),
+           .dx2 = hn::Sub(b.x, a.x),
+           .dy2 = hn::Sub(b.y, a.y),
+           .area2 = hn::Zero(d),
+           .z0 = a.z,
+           .z1 = b.z,
+           .z2 = c.z};
+  t.area2 = hn::Sub(hn::Mul(t.dx1, t.dy2), hn::Mul(t.dx2, t.dy1));
+  if constexpr (kOneSided) return t;
+  const auto clockwise = hn::Lt(t.area2, hn::Zero(d));
+  const auto flip = [&](IntV& p, IntV& q) HWY_ATTR {
+    const auto kept = p;
+    p = hn::IfThenElse(clockwise, hn::Neg(q), p);
+    q = hn::IfThenElse(clockwise, hn::Neg(kept), q);
+  };
+  flip(t.dx1, t.dx2);
+  flip(t.dy1, t.dy2);
+  t.z1 = hn::IfThenElse(hn::RebindMask(df, clockwise), c.z, b.z);
+  t.z2 = hn::IfThenElse(hn::RebindMask(df, clockwise), b.z, c.z);
+  t.area2 = hn::Abs(t.area2);
+  return t;
+}
+
+HWY_INLINE void put_edge(IntV start, IntV dx, IntV dy, WalkEdge& to) {
+  const Ints d;
+  hn::Store(start, d, to.start);
+  hn::Store(hn::ShiftLeft<10>(dx), d, to.row);
+  hn::Store(hn::ShiftLeft<10>(dy), d, to.column);
+  hn::Store(hn::Add(hn::Set(d, 1), holds_zero(dx, dy)), d, to.least);
+}
+
+/// \param from_x, from_y  from corner 0 to the first pixel of the box
+/// \param chosen          the others of the vector are not drawn
+HWY_INLINE void put_walk(const Shapes& t, IntV from_x, IntV from_y, const Boxes& box, IntM chosen, int width,
+                         Walk& to) {
+  const Floats df;
+  const Ints d;
+  const auto start1 = hn::Sub(hn::Mul(t.dx1, from_y), hn::Mul(t.dy1, from_x));
+  const auto start2 = hn::Sub(hn::Mul(t.dx2, from_y), hn::Mul(t.dy2, from_x));
+  const auto start0 = hn::Sub(hn::Sub(t.area2, start1), start2);
+  // Those not chosen stay outside of edge 0 wherever they walk.
+  put_edge(hn::IfThenElse(chosen, start0, hn::Set(d, -1)),
+           hn::IfThenElseZero(chosen, hn::Neg(hn::Add(t.dx1, t.dx2))),
+           hn::IfThenElseZero(chosen, hn::Neg(hn::Add(t.dy1, t.dy2))), to.edges[0]);
+  put_edge(start1, t.dx1, t.dy1, to.edges[1]);
+  put_edge(start2, t.dx2, t.dy2, to.edges[2]);
+  // Weights are exact integers over the area, so a depth never leaves the range of the corners' depths by
+  // more than rounding, however thin the triangle.
+  const auto inverse = hn::Div(hn::Set(df, 1.0F), hn::ConvertTo(df, t.area2));
+  hn::Store(t.z0, df, to.depth);
+  hn::Store(hn::Mul(hn::Sub(t.z1, t.z0), inverse), df, to.rise[0]);
+  hn::Store(hn::Mul(hn::Sub(t.z2, t.z0), inverse), df, to.rise[1]);
+  hn::Store(hn::Add(hn::Mul(box.top, hn::Set(d, width)), box.left), d, to.index);
+  const auto more_columns = hn::IfThenElse(chosen, box.more_columns, hn::Set(d, -1));
+  const auto more_rows = hn::IfThenElse(chosen, box.more_rows, hn::Set(d, -1));
+  hn::Store(more_columns, d, to.more_columns);
+  hn::Store(more_rows, d, to.more_rows);
+  to.last_column = hn::GetLane(hn::MaxOfLanes(d, more_columns));
+  to.last_row = hn::GetLane(hn::MaxOfLanes(d, more_rows));
+  to.clipped = !hn::AllTrue(d, hn::Or(box.whole, hn::Not(chosen)));
+}
+
+/// Draws vectors of triangles into one map.
+class Drawing {
+ public:
+  Drawing(const Projection& to_steps, const Canvas& canvas) : to_steps_(to_steps), canvas_(canvas) {}
+
+  /// \param at  x of the first corner of the first triangle of a vector; `second` and `third` floats behind it lie those
+  ///            of the others
+  /// \tparam kAllNear   no corner is farther from the map's origin than kNear
+  /// \tparam kOneSided  only triangles whose corners come counter-clockwise are drawn
+  template <bool kAllNear, bool kOneSided>
+  HWY_INLINE void add(const float* at, std::size_t second, std::size_t third) {
+    const Ints d;
+    const Corner a = corner_of<kAllNear>(at, to_steps_);
+    const Corner b = corner_of<kAllNear>(at + second, to_steps_);
+    const Corner c = corner_of<kAllNear>(at + third, to_steps_);
+    const Boxes box = boxes_of(a, b, c, canvas_);
+    if (!hn::AllTrue(d, hn::Or(box.fits, hn::Not(box.visible)))) {
+      draw_alone({a, b, c}, hn::AndNot(box.fits, box.visible), canvas_);
+    }
+    const Shapes shapes = shapes_of<kOneSided>(a, b, c);
+    const auto small = hn::And(hn::And(box.fits, box.visible), hn::Gt(shapes.area2, hn::Zero(d)));
+    if (hn::AllFalse(d, small)) return;
+    put_walk(shapes, hn::Sub(centre_in(box.left), a.x), hn::Sub(centre_in(box.top), a.y), box, small,
+             canvas_.width, walks_[waiting_++]);
+    if (waiting_ == kWalks) take_walks();
+  }
+
+  /// Draws what still waits.
+  HWY_INLINE void finish() {
+    take_walks();
+    flush(fragments_, canvas_.depth);
+  }
+
+ private:
+  HWY_NOINLINE void take_walks() {
+    for (std::size_t k = 0; k < waiting_; ++k) {
+      if (walks_[k].clipped) {
+        take_walk<true>(walks_[k], canvas_.width, fragments_);
+      } else {
+        take_walk<false>(walks_[k], canvas_.width, fragments_);
+      }
+      if (fragments_.count >= Fragments::kEnough) flush(fragments_, canvas_.depth);
+    }
+    waiting_ = 0;
+  }
+
+  /// Triangles are made ready a few vectors before they walk: how far they walk is known early then, and mispredicting it
+  /// costs little.
+  static constexpr std::size_t kWalks = 4;
+
+  const Projection to_steps_;
+  const Canvas canvas_;
+  std::size_t waiting_ = 0;
+  Walk walks_[kWalks];
+  Fragments fragments_;
+};
 
 const char* target_name() {
   return hwy::TargetName(HWY_TARGET);
 }
 
-void draw_block(const float* block, Sides sides, const Projection& projection, const Canvas& canvas,
-                Fragments& fragments) {
+Projection in_steps(Projection projection) {
+  for (int row = 0; row < 2; ++row) {
+    for (int column = 0; column < 3; ++column) projection.linear[column][row] *= kSubpixels;
+    projection.offset[row] *= kSubpixels;
+  }
+  return projection;
+}
+
+template <bool kAllNear, bool kOneSided>
+HWY_INLINE void draw_block(const float* block, bool mirrored, Drawing& drawing) {
+  constexpr std::size_t kCorner = 3 * kSoupBlock;
+  const std::size_t second = mirrored || !kOneSided ? kCorner : 2 * kCorner;
   for (std::size_t lane = 0; lane < kSoupBlock; lane += hn::Lanes(Floats())) {
-    draw_vector(block + lane, sides, projection, canvas, fragments);
+    drawing.add<kAllNear, kOneSided>(block + lane, second, 3 * kCorner - second);
   }
 }
 
+template <bool kAllNear>
 void draw_blocks(const TriangleSoup& soup, const Projection& projection, const Canvas& canvas) {
-  Fragments fragments;
+  Drawing drawing(in_steps(projection), canvas);
   const Gaze gaze = gaze_of(projection);
   const bool looks = gaze.along != glm::vec3(0.0F);
-  const Sides front = !looks ? Sides::Both : gaze.mirrored ? Sides::Positive : Sides::Negative;
   const float* block = soup.blocks.data();
   for (const TriangleSoup::Cone& cone : soup.cones) {
     const bool looks_away = glm::dot(cone.axis, gaze.along) > cone.sine;
-    if (!looks_away) draw_block(block, front, projection, canvas, fragments);
+    if (!looks) {
+      draw_block<kAllNear, false>(block, false, drawing);
+    } else if (!looks_away) {
+      draw_block<kAllNear, true>(block, gaze.mirrored, drawing);
+    }
     block += 9 * kSoupBlock;
   }
   for (const float* end = soup.blocks.data() + soup.blocks.size(); block != end; block += 9 * kSoupBlock) {
-    draw_block(block, Sides::Both, projection, canvas, fragments);
+    draw_block<kAllNear, false>(block, false, drawing);
   }
-  flush(fragments, canvas.depth);
+  drawing.finish();
+}
+
+void draw_near(const TriangleSoup& soup, const Projection& projection, const Canvas& canvas) {
+  draw_blocks<true>(soup, projection, canvas);
+}
+
+void draw_far(const TriangleSoup& soup, const Projection& projection, const Canvas& canvas) {
+  draw_blocks<false>(soup, projection, canvas);
 }
 
 }  // namespace rejoin::zbuffer::detail::HWY_NAMESPACE
@@ -302,15 +454,13 @@ HWY_AFTER_NAMESPACE();
 namespace rejoin::zbuffer::detail {
 namespace {
 
-HWY_EXPORT(draw_blocks);
+HWY_EXPORT(draw_near);
+HWY_EXPORT(draw_far);
 HWY_EXPORT(target_name);
 
-bool within_reach(const TriangleSoup& soup, const Projection& projection) {
-  const mesh::Box box = projected(soup.box, projection);
-  // Half the reach leaves room for the rounding of points inside the box.  A pose that is not finite is out
-  // of reach.
-  constexpr float kFar = kReach / 2;
-  return box.low.x > -kFar && box.low.y > -kFar && box.high.x < kFar && box.high.y < kFar &&
+/// Whether all corners lie in a box around the origin.  A pose that is not finite is nowhere.
+bool is_within(float pixels, const mesh::Box& box) {
+  return box.low.x > -pixels && box.low.y > -pixels && box.high.x < pixels && box.high.y < pixels &&
          std::isfinite(box.low.z) && std::isfinite(box.high.z);
 }
 
@@ -329,8 +479,12 @@ void draw_one_by_one(const TriangleSoup& soup, const Projection& projection, con
 }  // namespace
 
 void draw_soup(const TriangleSoup& soup, const Projection& projection, const Canvas& canvas) {
-  if (within_reach(soup, projection)) {
-    HWY_DYNAMIC_DISPATCH(draw_blocks)(soup, projection, canvas);
+  const mesh::Box box = projected(soup.box, projection);
+  if (is_within(HWY_STATIC_DISPATCH(kNear), box)) {
+    HWY_DYNAMIC_DISPATCH(draw_near)(soup, projection, canvas);
+  } else if (is_within(kReach / 2,
+                       box)) {  // half of it leaves room for the rounding of points inside the box
+    HWY_DYNAMIC_DISPATCH(draw_far)(soup, projection, canvas);
   } else {
     draw_one_by_one(soup, projection, canvas);
   }
