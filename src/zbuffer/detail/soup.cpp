@@ -1,6 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdint>
+#include <cstddef>
 #include <limits>
 #include <span>
 #include <utility>
@@ -12,16 +13,7 @@
 namespace rejoin::zbuffer::detail {
 namespace {
 
-constexpr float kCells = 1023.0F;         ///< a side of the box, in steps of 10 bits
 constexpr float kConeRounding = 0.0005F;  ///< by which a cone is wider than its normals, for they are rounded
-
-/// The lowest 10 bits of x, with two free bits before each.
-std::uint32_t spread(std::uint32_t x) {
-  x = (x | (x << 16U)) & 0x030000FFU;
-  x = (x | (x << 8U)) & 0x0300F00FU;
-  x = (x | (x << 4U)) & 0x030C30C3U;
-  return (x | (x << 2U)) & 0x09249249U;
-}
 
 glm::vec3 normal_of(const mesh::Mesh& mesh, const glm::uvec3& face) {
   const glm::dvec3 a(mesh.vertices[face.x]);
@@ -31,40 +23,66 @@ glm::vec3 normal_of(const mesh::Mesh& mesh, const glm::uvec3& face) {
   return length > 0.0 ? glm::vec3(normal / length) : glm::vec3(0.0F);
 }
 
-/// Cells of a side of the cube on which normals that look alike share one.
-constexpr float kNormalCells = 4.0F;
+/// How much less than a turn of its normal by a radian it counts that a face lies at the other end of the mesh.
+constexpr float kPlaceWeight = 0.25F;
 
-/// The same for normals that look alike.
-std::uint32_t direction_of(const glm::vec3& normal) {
-  const glm::vec3 size = glm::abs(normal);
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  if (size[axis] == 0.0F) return 0;
-  const glm::vec2 on_side = glm::vec2(normal[(axis + 1) % 3], normal[(axis + 2) % 3]) / size[axis];
-  const glm::uvec2 cell(glm::clamp((on_side + 1.0F) * (kNormalCells / 2), 0.0F, kNormalCells - 1));
-  const std::uint32_t side = 2U * static_cast<std::uint32_t>(axis) + (normal[axis] < 0 ? 1U : 0U);
-  return (side * 16U + cell.x) * 16U + cell.y;
-}
+/// A face as a point: the place of its centre, weighted, and its normal.
+struct Item {
+  std::array<float, 6> at;
+  glm::uvec3 face;
+};
 
-/// Puts neighbours together (Morton order of the centres), and of those that can only be seen from their front the ones that
-/// look the same way.  Triangles that lie close are mostly of one size and one direction, so those that are drawn in step
-/// cover boxes of about the same number of pixels, and none waits long for the others; a mesh in random order takes half as
-/// long again.
-void sort_by_place(std::vector<glm::uvec3>& faces, const mesh::Mesh& mesh, const mesh::Box& box,
-                   bool by_direction) {
+std::vector<Item> items_of(const std::vector<glm::uvec3>& faces, const mesh::Mesh& mesh,
+                           const mesh::Box& box) {
   const glm::vec3 extent = box.high - box.low;
   const float longest = std::max({extent.x, extent.y, extent.z, std::numeric_limits<float>::min()});
-  std::vector<std::pair<std::uint64_t, glm::uvec3>> keyed;
-  keyed.reserve(faces.size());
+  std::vector<Item> items;
+  items.reserve(faces.size());
   for (const glm::uvec3& f : faces) {
     const glm::vec3 centre = (mesh.vertices[f.x] - box.low) / 3.0F + (mesh.vertices[f.y] - box.low) / 3.0F +
                              (mesh.vertices[f.z] - box.low) / 3.0F;
-    const glm::uvec3 cell(glm::clamp(centre / longest, 0.0F, 1.0F) * kCells);
-    const std::uint64_t direction = by_direction ? direction_of(normal_of(mesh, f)) : 0U;
-    keyed.emplace_back(direction << 30U | spread(cell.x) | (spread(cell.y) << 1U) | (spread(cell.z) << 2U),
-                       f);
+    const glm::vec3 place = centre / longest * kPlaceWeight;
+    const glm::vec3 normal = normal_of(mesh, f);
+    items.push_back({{place.x, place.y, place.z, normal.x, normal.y, normal.z}, f});
+    for (float& x : items.back().at) x = std::isfinite(x) ? x : 0.0F;
   }
-  std::ranges::stable_sort(keyed, {}, &std::pair<std::uint64_t, glm::uvec3>::first);
-  std::ranges::transform(keyed, faces.begin(), &std::pair<std::uint64_t, glm::uvec3>::second);
+  return items;
+}
+
+std::size_t widest_axis(std::span<const Item> items) {
+  auto low = items[0].at;
+  auto high = low;
+  for (const Item& item : items) {
+    for (std::size_t k = 0; k < low.size(); ++k) {
+      low[k] = std::min(low[k], item.at[k]);
+      high[k] = std::max(high[k], item.at[k]);
+    }
+  }
+  std::size_t widest = 0;
+  for (std::size_t k = 1; k < low.size(); ++k) {
+    if (high[k] - low[k] > high[widest] - low[widest]) widest = k;
+  }
+  return widest;
+}
+
+/// Halves the faces, each half again and so on, across the axis along which they differ most, down to blocks.
+void halve(std::span<Item> items) {
+  if (items.size() <= kSoupBlock) return;
+  const std::size_t blocks = (items.size() + kSoupBlock - 1) / kSoupBlock;
+  const std::size_t middle = blocks / 2 * kSoupBlock;
+  const auto by_axis = [axis = widest_axis(items)](const Item& item) { return item.at[axis]; };
+  std::ranges::nth_element(items, items.begin() + static_cast<std::ptrdiff_t>(middle), {}, by_axis);
+  halve(items.first(middle));
+  halve(items.subspan(middle));
+}
+
+/// Puts faces together that look the same way and lie close.  A block of such faces looks away as a whole more often, and
+/// they are mostly of one size, so those that are drawn in step cover boxes of about the same number of pixels, and none
+/// waits long for the others.
+void gather_alike(std::vector<glm::uvec3>& faces, const mesh::Mesh& mesh, const mesh::Box& box) {
+  std::vector<Item> items = items_of(faces, mesh, box);
+  halve(items);
+  std::ranges::transform(items, faces.begin(), &Item::face);
 }
 
 TriangleSoup::Cone cone_of(const mesh::Mesh& mesh, std::span<const glm::uvec3> faces) {
@@ -109,8 +127,8 @@ TriangleSoup soup_of(const mesh::Mesh& mesh) {
   SidedFaces faces = sided_faces(mesh);
   TriangleSoup soup;
   soup.box = box_of(mesh, finite_faces(mesh));
-  sort_by_place(faces.front_only, mesh, soup.box, true);
-  sort_by_place(faces.both, mesh, soup.box, false);
+  gather_alike(faces.front_only, mesh, soup.box);
+  gather_alike(faces.both, mesh, soup.box);
   for (std::size_t at = 0; at < faces.front_only.size(); at += kSoupBlock) {
     const std::size_t count = std::min(kSoupBlock, faces.front_only.size() - at);
     soup.cones.push_back(cone_of(mesh, std::span(faces.front_only).subspan(at, count)));
