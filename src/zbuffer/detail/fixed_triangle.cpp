@@ -90,7 +90,7 @@ void fill(const FixedTriangle& t, const Canvas& canvas) {
                          static_cast<double>(edges[2].at(px, py)) * rise2;
     float* pixel = canvas.depth + j * canvas.width + span.first;
     const int count = static_cast<int>(span.last - span.first) + 1;
-    for (int i = 0; i < count; ++i) pixel[i] = std::min(pixel[i], static_cast<float>(start + step * i));
+    for (int i = 0; i < count; ++i) pixel[i] = nearest(pixel[i], static_cast<float>(start + step * i));
   }
 }
 

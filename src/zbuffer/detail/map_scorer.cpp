@@ -5,12 +5,11 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "zbuffer/detail/canvas.hpp"
 #include "zbuffer/detail/pair_score.hpp"
 
 namespace rejoin::zbuffer::detail {
 namespace {
-
-constexpr float kNothing = std::numeric_limits<float>::infinity();
 
 /// Lanes a thread: enough that threads end together, and that each of a few annealing chains keeps its own
 /// maps.
@@ -56,7 +55,8 @@ const float* MapScorer::map_of(Side side, const Projection& projection, Lane& la
     }
   }
   Slot& slot = slots[0].last_use <= slots[1].last_use ? slots[0] : slots[1];
-  slot.depth.assign(pixel_count(options_), kNothing);
+  slot.depth.resize(pixel_count(options_));
+  clear(slot.depth);
   render(side, projection, slot.depth);
   slot.projection = projection;
   slot.last_use = now;
@@ -65,9 +65,7 @@ const float* MapScorer::map_of(Side side, const Projection& projection, Lane& la
 
 DepthMap MapScorer::depth_map(Side side, const Projection& projection) const {
   DepthMap map(options_.resolution, options_.resolution);
-  std::fill(map.depth.begin(), map.depth.end(), kNothing);
   render(side, projection, map.depth);
-  std::replace(map.depth.begin(), map.depth.end(), kNothing, kBackground);
   return map;
 }
 

@@ -27,7 +27,7 @@ class MapScorer : public Scorer {
  protected:
   const ViewOptions& options() const { return options_; }
 
-  /// Draws a fragment into resolution x resolution depths that hold +infinity everywhere.  Thread-safe.
+  /// Draws a fragment into resolution x resolution depths that are NaN everywhere.  Thread-safe.
   virtual void render(Side side, const Projection& projection, std::span<float> depth) const = 0;
 
  private:

@@ -47,11 +47,8 @@ struct Fragments {
 HWY_INLINE void flush(Fragments& fragments, float* map) {
 #pragma GCC unroll 4
   for (std::size_t k = 0; k < fragments.count; ++k) {
-    // By value, so that the compiler takes a minimum instead of a branch that nothing can predict.
     float& pixel = map[fragments.index[k]];
-    const float before = pixel;
-    const float depth = fragments.depth[k];
-    pixel = depth < before ? depth : before;
+    pixel = nearest(pixel, fragments.depth[k]);
   }
   fragments.count = 0;
 }

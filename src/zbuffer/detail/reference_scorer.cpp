@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "zbuffer/detail/backends.hpp"
 #include "zbuffer/detail/map_scorer.hpp"
 
@@ -21,9 +23,7 @@ class ReferenceScorer final : public MapScorer {
     for (const glm::vec3& vertex : mesh.vertices) points.push_back(projection(vertex));
     DepthMap map(options().resolution, options().resolution);
     draw_reference(points, mesh.faces, map);
-    for (std::size_t k = 0; k < depth.size(); ++k) {
-      if (map.depth[k] < depth[k]) depth[k] = map.depth[k];
-    }
+    std::ranges::copy(map.depth, depth.begin());
   }
 
  private:
