@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kRadians = 3.14159265358979323846 / 180;
 constexpr double kViewToDiameter = 1.3;
-constexpr std::size_t kMapFaces = 10000;  // the paper's figure; enough for maps of 128 x 128
+constexpr std::size_t kMapFaces =
+    10000;  // the paper's figure; docs/performance.md has what it does to errors
 
 /// One space to anneal in, and where its directions came from.
 struct Combination {
