@@ -9,6 +9,7 @@
 #include <fstream>
 #include <map>
 #include <memory>
+#include <set>
 
 #include "batch/shelf.hpp"
 #include "core/error.hpp"
@@ -83,7 +84,9 @@ std::vector<std::string> find_scans(const fs::path& folder) {
     std::string mend = "give a folder of ply, obj, stl, off, gltf, glb, drc, xyz or pts files";
     if (fs::exists(folder / store::kFileName)) mend = "it is a run: give the folder of its scans";
     if (!told_of_folders(folder).empty())
-      mend = "there are scans in folders below: move those up, or give one of these";
+      mend =
+          "there are scans in folders below: move those up, each under a name of its own, or give one of "
+          "these";
     throw InputError(folder.string(), names.empty() ? "holds no scan" : "holds one scan only", mend);
   }
   for (const std::string& name : names) require_tellable_name(folder / name);
@@ -105,20 +108,24 @@ std::string told_of_models(const fs::path& folder) {
 }
 
 std::string told_of_folders(const fs::path& folder) {
-  std::vector<std::string> names;
+  std::set<std::string> names;
   std::error_code problem;
-  for (fs::directory_iterator entry(folder, problem), end; !problem && entry != end;
-       entry.increment(problem)) {
+  fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied, problem);
+  for (const fs::recursive_directory_iterator end; !problem && entry != end; entry.increment(problem)) {
     std::error_code ignored;
     const fs::path& path = entry->path();
-    if (path.filename().string().starts_with('.') || !entry->is_directory(ignored)) continue;
-    if (!is_cache(path) && holds_scans(path)) names.push_back(path.filename().string());
+    if (!entry->is_directory(ignored)) continue;
+    if (path.filename().string().starts_with('.') || is_cache(path)) {
+      entry.disable_recursion_pending();
+    } else if (holds_scans(path)) {
+      names.insert(path.lexically_relative(folder).string());
+    }
   }
   if (names.empty()) return "";
-  std::sort(names.begin(), names.end());
-  return fmt::format("{} with scans in {} ({}{}) left out: move those up that are to be matched, too",
-                     counted(names.size(), "folder"), folder.string(), names.front(),
-                     names.size() == 1 ? "" : ", ...");
+  return fmt::format(
+      "{} with scans below {} ({}{}) left out: move those scans up that are to be matched, too, each under a "
+      "name of its own",
+      counted(names.size(), "folder"), folder.string(), *names.begin(), names.size() == 1 ? "" : ", ...");
 }
 
 std::string content_hash(const fs::path& path) {

@@ -18,8 +18,8 @@ std::vector<std::string> find_scans(const std::filesystem::path& folder);
 /// What to tell of the models in the folder that find_scans() leaves out; empty if there are none.
 std::string told_of_models(const std::filesystem::path& folder);
 
-/// What to tell of the folders in the folder that hold scans, which find_scans() does not look for; empty if there are none.  The surfaces
-/// that a run keeps are no scans.
+/// What to tell of the folders below the folder, however deep, that hold scans, which find_scans() does not look for; empty if there
+/// are none.  The surfaces that a run keeps are no scans; of folders below a link nothing is told.
 std::string told_of_folders(const std::filesystem::path& folder);
 
 /// 128 bits of the content (XXH3) of mesh::files_of() as 32 hexadecimal digits; equal contents have equal hashes, under any name.

@@ -40,17 +40,26 @@ TEST_F(Inputs, ScansAreFoundByExtensionInAnyCaseAndSorted) {
 }
 
 TEST_F(Inputs, FoldersBelowWithScansAreTold) {
-  for (const char* name : {"notes", "result", "fragments", ".Trash"}) fs::create_directory(folder_ / name);
+  for (const char* name : {"notes", "result", "fragments", ".Trash", "old", "old/run", "old/run/fragments"})
+    fs::create_directory(folder_ / name);
   put("run.sqlite", "");
   put("notes/find.txt", "x");
   put("result/joined.ply", "x");
   put("fragments/kept.drc", "x");
+  put("old/run/run.sqlite", "");
+  put("old/run/fragments/kept.drc", "x");
   put(".Trash/old.ply", "x");
   EXPECT_EQ(told_of_folders(folder_), "") << "no scans, a model, what a run keeps, and what is hidden";
   fs::create_directory(folder_ / "trench 2");
   put("trench 2/a.ply", "x");
-  EXPECT_EQ(told_of_folders(folder_).find("1 folder with scans in "), 0U) << told_of_folders(folder_);
+  EXPECT_EQ(told_of_folders(folder_).find("1 folder with scans below "), 0U) << told_of_folders(folder_);
   EXPECT_NE(told_of_folders(folder_).find("(trench 2) left out"), std::string::npos);
+  fs::create_directories(folder_ / "phone/07");  // as apps export: a folder a scan, within another
+  put("phone/07/textured.obj", "x");
+  fs::create_directory_symlink(folder_ / "phone/07", folder_ / "linked");
+  fs::create_directory_symlink(folder_, folder_ / "phone/round");
+  EXPECT_EQ(told_of_folders(folder_).find("3 folders with scans below "), 0U) << told_of_folders(folder_);
+  EXPECT_NE(told_of_folders(folder_).find("(linked, ...) left out"), std::string::npos);
   try {
     find_scans(folder_);
     FAIL() << "it holds no scan itself";
