@@ -138,36 +138,44 @@ class AssemblyReader {
     report_.pairs.push_back(std::move(pair));
   }
 
-  /// What the user asked for, among the parameters, and what could not be kept of it.
+  /// What the user asked for, also among the parameters, and what could not be kept of it.
   void tell_constraints(const ordered_json& json) const {
     if (!json.is_object()) refuse(path_, "\"constraints\" is no object");
-    for (const auto& [key, label] :
-         {std::pair("must_join", "must join"), {"must_not_join", "must not join"}}) {
-      std::string told;
-      const ordered_json pairs = json.value(key, ordered_json::array());
-      for (const ordered_json& pair : pairs) {
-        if (!pair.is_array() || pair.size() != 2)
-          refuse(path_, fmt::format("\"{}\" is no list of pairs", key));
-        told += fmt::format("{}{} + {}", told.empty() ? "" : ", ", name_of(pair[0]), name_of(pair[1]));
-      }
-      if (!told.empty()) report_.parameters.emplace_back(label, told);
-    }
+    take_pairs(json, "must_join", "must join", report_.constraints.must_join);
+    take_pairs(json, "must_not_join", "must not join", report_.constraints.must_not_join);
     std::string posed;
     const ordered_json poses = json.value("poses", ordered_json::object());
     if (!poses.is_object()) refuse(path_, "\"poses\" is no object");
-    for (const auto& [name, pose] : poses.items()) posed += (posed.empty() ? "" : ", ") + name_of(name);
+    for (const auto& [name, value] : poses.items()) {
+      posed += (posed.empty() ? "" : ", ") + name;
+      const auto number = number_of(name);
+      const std::optional<Rigid> pose = rigid_from_json(value);
+      if (!pose) refuse(path_, fmt::format("pose of \"{}\" in \"constraints\" {}", name, kNoRigid));
+      if (number) report_.constraints.pinned.emplace_back(*number, *pose);
+    }
     if (!posed.empty()) report_.parameters.emplace_back("pose given", posed);
     tell(json.value("problems", ordered_json::array()));
+  }
+
+  /// Pairs of which the run has both fragments go into the list.
+  void take_pairs(const ordered_json& json, const char* key, const char* label,
+                  std::vector<std::pair<std::size_t, std::size_t>>& list) const {
+    std::string told;
+    const ordered_json pairs = json.value(key, ordered_json::array());
+    for (const ordered_json& pair : pairs) {
+      if (!pair.is_array() || pair.size() != 2) refuse(path_, fmt::format("\"{}\" is no list of pairs", key));
+      const auto a = number_of(pair[0]);
+      const auto b = number_of(pair[1]);
+      told += fmt::format("{}{} + {}", told.empty() ? "" : ", ", pair[0].get<std::string>(),
+                          pair[1].get<std::string>());
+      if (a && b) list.emplace_back(*a, *b);
+    }
+    if (!told.empty()) report_.parameters.emplace_back(label, told);
   }
 
   void tell(const ordered_json& warnings) const {
     for (const ordered_json& warning : warnings)
       if (warning.is_string()) report_.warnings.push_back(warning.get<std::string>());
-  }
-
-  std::string name_of(const ordered_json& name) const {
-    static_cast<void>(number_of(name));  // refuses what is none
-    return name.get<std::string>();
   }
 
   std::filesystem::path path_;

@@ -62,6 +62,13 @@ struct ReportPair {
   Comparison comparison = Comparison::Done;
 };
 
+/// What the user asked the assembly for, as indices of fragments.
+struct ReportConstraints {
+  std::vector<std::pair<std::size_t, std::size_t>> must_join;
+  std::vector<std::pair<std::size_t, std::size_t>> must_not_join;
+  std::vector<std::pair<std::size_t, Rigid>> pinned;  ///< file coordinates -> common frame
+};
+
 /// All that the page shows.
 struct RunReport {
   std::string title;
@@ -70,6 +77,7 @@ struct RunReport {
   std::size_t missing_pairs = 0;  ///< that are not compared yet
   std::vector<std::pair<std::string, std::string>> parameters;  ///< shown as they are, in this order
   std::vector<std::string> warnings;
+  ReportConstraints constraints = {};
 };
 
 struct RunReportOptions {

@@ -198,8 +198,8 @@ TEST(Report, ShowsWhatTheUserAskedForAndWhatCouldNotBeKept) {
                          {"doubts", {doubt}},
                          {"constraints",
                           {{"must_join", json::array({{"a.ply", "gone.ply"}, {"a.ply", "b.ply"}})},
-                           {"must_not_join", json::array()},
-                           {"poses", {{"b.ply", json::array()}}},
+                           {"must_not_join", json::array({{"b.ply", "a.ply"}})},
+                           {"poses", {{"b.ply", {{0, -1, 0, 5}, {1, 0, 0, 6}, {0, 0, 1, 7}, {0, 0, 0, 1}}}}},
                            {"problems", {problem}}}}};
   run.assemble(assembly.dump());
   const Finished finished = testing::run({"report", run.folder, "--pictures", "0"});
@@ -211,6 +211,10 @@ TEST(Report, ShowsWhatTheUserAskedForAndWhatCouldNotBeKept) {
   };
   EXPECT_TRUE(has({"must join", "a.ply + gone.ply, a.ply + b.ply"})) << parameters;
   EXPECT_TRUE(has({"pose given", "b.ply"})) << parameters;
+  const json& kept = data["constraints"];  // of which the page makes the file for the next assembly
+  EXPECT_EQ(kept["must_join"], json::parse("[[0, 2], [0, 1]]"));
+  EXPECT_EQ(kept["must_not_join"], json::parse("[[1, 0]]"));
+  EXPECT_EQ(kept["poses"], json::parse("[[1, [0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1]]]"));
   EXPECT_EQ(data["warnings"][0], problem);
   EXPECT_EQ(data["warnings"][1], doubt);
 }
@@ -224,7 +228,8 @@ TEST(Report, RefusesAnAssemblyThatIsNoneOfThisRun) {
         R"({"schema": "rejoin.assembly/1", "fragments": {}, "joins": [{"a": 1, "b": 2}]})",
         R"({"schema": "rejoin.assembly/1", "fragments": {}, "constraints": [5]})",
         R"({"schema": "rejoin.assembly/1", "fragments": {}, "constraints": {"must_join": 5}})",
-        R"({"schema": "rejoin.assembly/1", "fragments": {}, "constraints": {"poses": ["a.ply"]}})"}) {
+        R"({"schema": "rejoin.assembly/1", "fragments": {}, "constraints": {"poses": ["a.ply"]}})",
+        R"({"schema": "rejoin.assembly/1", "fragments": {}, "constraints": {"poses": {"a.ply": [[1]]}}})"}) {
     run.assemble(text);
     const Finished finished = testing::run({"report", run.folder});
     EXPECT_EQ(finished.exit_code, 1) << text;

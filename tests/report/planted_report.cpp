@@ -45,6 +45,8 @@ RunReport planted_report() {
   report.pairs.push_back({3, 0, 0.02, "no join", false, std::nullopt, {}, {}});
   report.parameters = {{"seed", "1"}, {"<script>window.hacked = 5</script>", "javascript:window.hacked=6"}};
   report.warnings = {"<svg onload=window.hacked=7> has no faces"};
+  report.constraints.must_not_join = {{2, 0}};
+  report.constraints.pinned = {{2, {glm::dmat3(1.0), {0.1, -2, 3e12}}}};
   return report;
 }
 

@@ -46,6 +46,13 @@ ordered_json fragment_json(const ReportFragment& fragment, const PackedMesh& mes
           {"mesh", mesh_json(mesh)}};
 }
 
+ordered_json constraints_json(const ReportConstraints& constraints) {
+  ordered_json poses = ordered_json::array();
+  for (const auto& [fragment, pose] : constraints.pinned) poses.push_back({fragment, columns(pose)});
+  return {
+      {"must_join", constraints.must_join}, {"must_not_join", constraints.must_not_join}, {"poses", poses}};
+}
+
 ordered_json pictures_json(const std::vector<ReportPicture>& pictures) {
   ordered_json list = ordered_json::array();
   for (const ReportPicture& picture : pictures) {
@@ -126,6 +133,7 @@ std::string page_json(const PageData& data) {
                              {"pairs", pairs},
                              {"scores", base64(score_triangle(report))},
                              {"parameters", parameters},
+                             {"constraints", constraints_json(report.constraints)},
                              {"warnings", report.warnings}};
   return without_less_than(json.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
 }

@@ -1,5 +1,6 @@
 // The page of a run, made of the data that lies in it.
 import {Assembly} from './assembly.js';
+import {Decisions} from './decisions.js';
 import {h, nameElement, replace} from './dom.js';
 import {Joins} from './joins.js';
 import {Matrix} from './matrix.js';
@@ -50,7 +51,7 @@ function start() {
     assembly.isolate(indices);
     toView();
   };
-  const joins = new Joins(data, isolate, large.open);
+  const joins = new Joins(data, new Decisions(data), isolate, large.open);
   const choose = (indices) => {
     assembly.choose(indices);
     toView();
@@ -60,7 +61,7 @@ function start() {
   const links = SECTIONS.map(([id, label]) => h('a', {href: `#${id}`}, label));
   document.body.append(
     h('header', {class: 'top'}, nameElement(data.title, {tag: 'h1', limit: 60}), h('nav', {'aria-label': 'Sections'}, links), themeButton()),
-    h('main', {}, overview(data, choose), assembly.element, joins.element, matrix.element, parameters(data)),
+    h('main', {}, overview(data, choose, () => joins.check()), assembly.element, joins.element, matrix.element, parameters(data)),
     large.dialog,
   );
   assembly.start().then(() => document.body.classList.add('ready'));

@@ -1,11 +1,12 @@
 // What came out, in numbers, and what became of each fragment.
 import {h, nameElement} from './dom.js';
+import {TO_CHECK} from './joins.js';
 import {counted, percent} from './numbers.js';
 
 const LIKELY = 0.5;  // confidence from which a place is more likely right than wrong
 
-/** @param choose (index) shows a fragment in 3D */
-export function overview(data, choose) {
+/** @param choose (index) shows a fragment in 3D  @param check () shows the joins that somebody should look at */
+export function overview(data, choose, check) {
   const placed = data.fragments.filter((fragment) => fragment.pose);
   const groups = new Set(placed.map((fragment) => fragment.group));
   const used = data.pairs.filter((pair) => pair.used);
@@ -27,6 +28,7 @@ export function overview(data, choose) {
     data.warnings.length > 0 && h('div', {class: 'warnings', role: 'note'}, h('h3', {}, counted(data.warnings.length, 'warning')), h('ul', {}, data.warnings.map((text) => h('li', {}, h('bdi', {}, text))))),
     missing(data, choose),
     objects(data, groups, choose),
+    toCheck(data, check),
   );
 }
 
@@ -55,6 +57,12 @@ function best(data, index) {
   if (!pair) return '\u2013';
   const other = data.fragments[pair.a === index ? pair.b : pair.a];
   return [percent(pair.score), ' with ', nameElement(other.name, {limit: 24})];
+}
+
+function toCheck(data, check) {
+  const count = data.pairs.filter(TO_CHECK).length;
+  if (count === 0) return null;
+  return h('p', {class: 'next'}, 'Next: ', h('button', {type: 'button', class: 'link', onclick: check}, `look at ${counted(count, 'join')}`), ' of which the scores are not sure, and say which are true.');
 }
 
 function objects(data, groups, choose) {

@@ -1,6 +1,6 @@
 // Whole pages in headless Chromium; REJOIN_PAGES names the folder with the pages (tests/report/planted_page.cpp).
 import assert from 'node:assert/strict';
-import {statSync} from 'node:fs';
+import {readFileSync, statSync} from 'node:fs';
 import {join} from 'node:path';
 import {after, before, test} from 'node:test';
 import {evenColour} from '../src/colours.js';
@@ -172,6 +172,31 @@ test('pictures of joins are there and decode', () =>
     });
     assert.equal(sizes.length, 7);
     for (const [width, height, shown] of sizes) assert.ok(width > 100 && height > 50 && shown);
+  }));
+
+test('decisions on joins become a constraints file, which goes on with the last one', () =>
+  on('hostile', async (page) => {
+    const data = JSON.parse(await page.textContent('#report'));
+    const names = data.fragments.map(({name}) => name);
+    const saved = async () => {
+      const [download] = await Promise.all([page.waitForEvent('download'), page.click('text=Save constraints.json')]);
+      const json = JSON.parse(readFileSync(await download.path(), 'utf8'));
+      assert.deepEqual(json, JSON.parse(await page.inputValue('.decisions textarea')));
+      return json;
+    };
+    const {poses} = await saved();
+    assert.deepEqual(await saved(), {must_not_join: [[names[2], names[0]]], poses});
+    assert.deepEqual(poses, {[names[2]]: [[1, 0, 0, 0.1], [0, 1, 0, -2], [0, 0, 1, 3e12], [0, 0, 0, 1]]});
+    await page.click('.next button');
+    assert.equal(await page.locator('.join').count(), 1);
+    assert.ok((await page.textContent('.join')).includes('unsure'));
+    await page.click('.join >> text="They join"');
+    assert.deepEqual((await saved()).must_join, [[names[2], names[3]]]);
+    await page.click('.join >> text="They do not join"');
+    assert.equal(await page.getAttribute('.join >> text="They join"', 'aria-pressed'), 'false');
+    assert.deepEqual(await saved(), {must_not_join: [[names[2], names[0]], [names[2], names[3]]], poses});
+    await page.click('.join >> text="They do not join"');
+    assert.deepEqual(await saved(), {must_not_join: [[names[2], names[0]]], poses});
   }));
 
 test('a phone shows it without scrolling sideways', () =>

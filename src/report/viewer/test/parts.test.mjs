@@ -2,6 +2,7 @@ import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import {test} from 'node:test';
 import {evenColour, gapColour, listColour, NONE} from '../src/colours.js';
+import {constraintsText} from '../src/decisions.js';
 import {shortened, tidy} from '../src/dom.js';
 import {ballOf, cross, frameOf, mainAxes, rows, shifts} from '../src/layout.js';
 import {bytesOf, counted, percent, short} from '../src/numbers.js';
@@ -85,6 +86,20 @@ test('characters that could fake another name are made visible', () => {
   assert.equal(tidy('a\u202eb\nc\u0000'), 'a\ufffdb\ufffdc\ufffd');
   assert.equal(tidy(''), '(no name)');
   assert.equal(tidy('\u05e9\u05d1\u05e8 \u7881'), '\u05e9\u05d1\u05e8 \u7881');
+});
+
+test('the constraints file has a line a pair, holds any name, and shows what is invisible', () => {
+  const names = ['Rand S\u00fcd.ply', 'a "b"\\.ply', 'x\u202e\n.ply'];
+  const turned = [0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 5.5, 6, 7, 1]; // column major
+  const text = constraintsText(names, {must_join: [[0, 1], [2, 0]], must_not_join: [[1, 2]]}, [[2, turned]]);
+  assert.deepEqual(JSON.parse(text), {
+    must_join: [[names[0], names[1]], [names[2], names[0]]],
+    must_not_join: [[names[1], names[2]]],
+    poses: {[names[2]]: [[0, -1, 0, 5.5], [1, 0, 0, 6], [0, 0, 1, 7], [0, 0, 0, 1]]},
+  });
+  assert.ok(text.includes('\\u202e\\n') && text.includes('S\u00fcd'), text);
+  assert.ok(text.split('\n').includes('  ["Rand S\u00fcd.ply", "a \\"b\\"\\\\.ply"],'), text);
+  assert.deepEqual(JSON.parse(constraintsText(names, {must_join: [], must_not_join: []}, [])), {});
 });
 
 test('numbers are short, and missing ones a dash', () => {
