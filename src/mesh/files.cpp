@@ -8,9 +8,7 @@
 #include "core/json_depth.hpp"
 
 namespace rejoin::mesh {
-namespace {
 
-/// "%20" and the like as the bytes that they stand for.
 std::string percent_decoded(const std::string& uri) {
   std::string text;
   for (std::size_t i = 0; i < uri.size(); ++i) {
@@ -26,8 +24,6 @@ std::string percent_decoded(const std::string& uri) {
   }
   return text;
 }
-
-}  // namespace
 
 std::vector<std::filesystem::path> files_of(const std::filesystem::path& path) {
   std::vector<std::filesystem::path> files{path};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace rejoin::mesh {
@@ -10,5 +11,8 @@ namespace rejoin::mesh {
 /// What is no glTF in truth has itself alone; load() says what is wrong with it.
 /// \throws IoError a .gltf cannot be read
 std::vector<std::filesystem::path> files_of(const std::filesystem::path& path);
+
+/// "%20" and the like in the name of a file as the bytes that they stand for.
+std::string percent_decoded(const std::string& uri);
 
 }  // namespace rejoin::mesh

@@ -9,8 +9,8 @@
 #include "core/error.hpp"
 #include "outline/detail/contour.hpp"
 #include "outline/detail/coverage.hpp"
-#include "outline/detail/image_file.hpp"
 #include "outline/polygon.hpp"
+#include "picture/image_file.hpp"
 
 namespace rejoin::outline {
 namespace {
@@ -199,7 +199,7 @@ void judge_cut_pieces(std::vector<Polygon>& outer, const cv::Mat& image, std::ve
 
 Extraction extract(const std::string& path, const ExtractOptions& options) {
   Extraction result;
-  const cv::Mat image = detail::load_image(path, options.max_pixels, &result.notes);
+  const cv::Mat image = picture::load_image(path, options.max_pixels, &result.notes);
   detail::Coverage coverage = detail::coverage(image, path);
   Loops loops = sort_loops(detail::contours(coverage.field, 0.5F, kLeastPoints), options.min_area);
   if (loops.outer.empty()) {

@@ -13,9 +13,9 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/words.hpp"
-#include "outline/detail/image_file.hpp"
 #include "outline/detail/readers.hpp"
 #include "outline/polygon.hpp"
+#include "picture/image_file.hpp"
 
 namespace rejoin::outline {
 namespace fs = std::filesystem;
@@ -24,7 +24,7 @@ namespace {
 enum class Kind { Picture, Csv, Svg, GeoJson, Unknown };
 
 Kind kind_of(const fs::path& path) {
-  if (detail::has_picture_name(path)) return Kind::Picture;
+  if (picture::has_picture_name(path)) return Kind::Picture;
   const std::string ending = extension_of(path);
   if (ending == ".csv" || ending == ".txt") return Kind::Csv;
   if (ending == ".svg") return Kind::Svg;
@@ -207,7 +207,7 @@ std::optional<double> units_an_inch(const fs::path& file) {
     return units > 0.0 ? std::optional(units) : std::nullopt;
   }
   if (kind_of(file) != Kind::Picture) return std::nullopt;
-  const auto header = detail::image_header(read_file(file));
+  const auto header = picture::image_header(read_file(file));
   if (!header || header->dots_per_inch < kUnknown) return std::nullopt;
   return header->dots_per_inch;
 }

@@ -410,20 +410,6 @@ TEST(Xyz, ReadsTheCountOfAPtsFileAndItsColoursBehindTheIntensity) {
   EXPECT_NE(loaded.warnings[0].find("no normals"), std::string::npos) << loaded.warnings[0];
 }
 
-std::string base64(const std::string& bytes) {
-  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      group = (group << 8U) | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    }
-    for (std::size_t k = 0; k < 4; ++k)
-      text += i + k <= bytes.size() ? kDigits[(group >> (18 - 6 * k)) & 63U] : '=';
-  }
-  return text;
-}
-
 TEST(Gltf, DecodesDracoPrimitives) {
   const TemporaryFolder folder;
   Mesh sphere = test::icosphere(1, 3);
@@ -435,7 +421,7 @@ TEST(Gltf, DecodesDracoPrimitives) {
       R"("extensionsRequired":["KHR_draco_mesh_compression"],"scene":0,"scenes":[{"nodes":[0]}],)"
       R"("nodes":[{"children":[1],"scale":[-2,2,2]},{"mesh":0,"translation":[10,0,0]}],)"
       R"("images":[{"uri":"missing.png"}],"buffers":[{"byteLength":)" +
-      std::to_string(data.size()) + R"(,"uri":"data:application/octet-stream;base64,)" + base64(data) +
+      std::to_string(data.size()) + R"(,"uri":"data:application/octet-stream;base64,)" + test::base64(data) +
       R"("}],"bufferViews":[{"buffer":0,"byteLength":)" + std::to_string(data.size()) +
       R"(}],"accessors":[{"componentType":5126,"count":642,"type":"VEC3"},{"componentType":5123,"count":3840,"type":"SCALAR"}],)"
       R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"extensions":)"

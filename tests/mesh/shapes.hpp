@@ -53,6 +53,9 @@ class TemporaryFolder {
 /// The file's bytes.
 std::string read_bytes(const std::filesystem::path& path);
 
+/// As in data: URIs.
+std::string base64(const std::string& bytes);
+
 /// The bytes of a value, little-endian.
 template <class T>
 std::string raw(const T& value) {

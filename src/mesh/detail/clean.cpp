@@ -316,6 +316,7 @@ Loaded clean(const Soup& soup, const std::string& name, Weld which) {
   check_points(soup, name);
   check_corners(soup, name);
   Loaded loaded;
+  for (const std::string& note : soup.notes) loaded.warnings.push_back(fmt::format("{}: {}", name, note));
   const PointBox box = box_of_piece(soup.points);
   check_steps(soup, box, name, loaded.warnings);
   loaded.mesh = to_mesh(soup, box);

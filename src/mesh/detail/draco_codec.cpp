@@ -31,15 +31,15 @@ const draco::PointAttribute* find(const draco::PointCloud& cloud, draco::Geometr
   return cloud.GetNamedAttribute(type);
 }
 
-/// First three components of every point's value.
-template <class T>
-std::vector<glm::vec<3, T>> triples(const draco::PointCloud& cloud, const draco::PointAttribute& attribute,
-                                    const std::string& name) {
-  if (attribute.num_components() < 3) damaged(name, "an attribute has fewer than three components");
-  std::vector<glm::vec<3, T>> values(cloud.num_points());
+/// First N components of every point's value.
+template <int N, class T>
+std::vector<glm::vec<N, T>> values_of(const draco::PointCloud& cloud, const draco::PointAttribute& attribute,
+                                      const std::string& name) {
+  if (attribute.num_components() < N) damaged(name, "an attribute has too few components");
+  std::vector<glm::vec<N, T>> values(cloud.num_points());
   for (std::uint32_t i = 0; i < cloud.num_points(); ++i) {
     const draco::AttributeValueIndex at = attribute.mapped_index(draco::PointIndex(i));
-    if (at.value() >= attribute.size() || !attribute.ConvertValue<T>(at, 3, &values[i].x)) {
+    if (at.value() >= attribute.size() || !attribute.ConvertValue<T>(at, N, &values[i].x)) {
       damaged(name, "an attribute lacks values");
     }
   }
@@ -51,7 +51,7 @@ std::vector<glm::u8vec3> colours_of(const draco::PointCloud& cloud, const draco:
   // Draco itself takes normalised bytes to 0 .. 1.
   const bool bytes = attribute.data_type() == draco::DT_UINT8 && !attribute.normalized();
   std::vector<glm::u8vec3> colours;
-  for (const glm::dvec3& value : triples<double>(cloud, attribute, name)) {
+  for (const glm::dvec3& value : values_of<3, double>(cloud, attribute, name)) {
     colours.push_back(to_bytes(value * (bytes ? 1.0 : 255.0)));
   }
   return colours;
@@ -134,9 +134,14 @@ Soup decode_draco(std::string_view bytes, const std::string& name, const DracoAt
   const draco::PointAttribute* colour = find(*cloud, draco::GeometryAttribute::COLOR, attributes.colour);
   if (position == nullptr) damaged(name, "it has no positions");
   Soup soup;
-  soup.points = triples<double>(*cloud, *position, name);
-  if (normal != nullptr) soup.normals = triples<float>(*cloud, *normal, name);
+  soup.points = values_of<3, double>(*cloud, *position, name);
+  if (normal != nullptr) soup.normals = values_of<3, float>(*cloud, *normal, name);
   if (colour != nullptr) soup.colours = colours_of(*cloud, *colour, name);
+  if (attributes.place) {
+    const draco::PointAttribute* place =
+        cloud->GetAttributeByUniqueId(static_cast<std::uint32_t>(*attributes.place));
+    if (place != nullptr) soup.places = values_of<2, double>(*cloud, *place, name);
+  }
   if (!is_mesh) return soup;
   const auto& mesh = static_cast<const draco::Mesh&>(*cloud);
   for (std::uint32_t f = 0; f < mesh.num_faces(); ++f) {

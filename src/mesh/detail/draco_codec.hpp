@@ -13,6 +13,7 @@ struct DracoAttributes {
   std::optional<int> position;
   std::optional<int> normal;
   std::optional<int> colour;
+  std::optional<int> place;  ///< on a picture; not read where it is not told
 };
 
 /// \param name  file, for errors

@@ -73,20 +73,22 @@ bool is_draco(const nlohmann::json& primitive) {
 }
 
 void check_extensions(const nlohmann::json& root, const std::string& name) {
-  static const std::set<std::string> kReadable{kDracoExtension, "KHR_mesh_quantization",
-                                               "KHR_texture_transform"};
+  static const std::set<std::string> kReadable{kDracoExtension, "KHR_mesh_quantization"};
   const auto required = root.find("extensionsRequired");
   if (required == root.end() || !required->is_array()) return;
   for (const nlohmann::json& extension : *required) {
     const std::string text = extension.is_string() ? extension.get<std::string>() : "?";
-    // Materials do not matter here, whatever extends them.
-    if (kReadable.count(text) > 0 || text.starts_with("KHR_materials_")) continue;
+    // A scan's shape does not depend on materials and pictures, whatever extends them.
+    if (kReadable.count(text) > 0 || text.starts_with("KHR_materials_") ||
+        text.find("_texture_") != std::string::npos)
+      continue;
     throw InputError(name, "requires the glTF extension " + text, "export it without that extension");
   }
 }
 
-/// The text with only what is needed.
-std::string reduced(std::string_view text, const std::string& name) {
+/// The text with only what tinygltf has to read.
+/// \param textures  gets what lies on the parts
+std::string reduced(std::string_view text, const std::string& name, GltfTextures& textures) {
   // Not by the parser's callback, for which it looks at all of a list again for each of the entries.
   if (json_depth(text) > kDeepestJson)
     throw InputError(name, fmt::format("glTF JSON is nested deeper than {}", kDeepestJson),
@@ -95,6 +97,7 @@ std::string reduced(std::string_view text, const std::string& name) {
   if (root.is_discarded() || !root.is_object())
     throw InputError(name, "is not a glTF file (its JSON cannot be read)", "check the file's format");
   check_extensions(root, name);
+  textures = gltf_textures(root);
   for (const char* unneeded :
        {"images", "textures", "samplers", "materials", "animations", "skins", "cameras", "extensions"}) {
     root.erase(unneeded);
@@ -150,17 +153,18 @@ std::string first_line(const std::string& text) {
 
 }  // namespace
 
-tinygltf::Model read_gltf_model(const Source& source) {
+GltfModel read_gltf_model(const Source& source) {
   if (source.bytes.size() > std::numeric_limits<std::uint32_t>::max() / 2) {
     throw InputError(source.name, "is larger than 2 GB", "save it as PLY");
   }
   const Parts parts = split(source);
-  const std::string json = reduced(parts.json, source.name);
+  GltfModel result;
+  const std::string json = reduced(parts.json, source.name, result.textures);
   const std::string folder = source.path.parent_path().string();
   tinygltf::TinyGLTF reader;
   reader.SetFsCallbacks(
       {&is_there, &tinygltf::ExpandFilePath, &read_buffer, &tinygltf::WriteWholeFile, nullptr});
-  tinygltf::Model model;
+  tinygltf::Model& model = result.model;
   std::string error;
   std::string warning;
   bool good = false;
@@ -177,7 +181,7 @@ tinygltf::Model read_gltf_model(const Source& source) {
   } catch (const std::exception& thrown) {
     error = thrown.what();
   }
-  if (good) return model;
+  if (good) return result;
   if (error.find("File not found") != std::string::npos ||
       error.find("File read error") != std::string::npos) {
     throw IoError(source.name, "a buffer file that it names cannot be read (" + first_line(error) + ")",

@@ -7,10 +7,13 @@
 #include <span>
 
 #include "core/error.hpp"
+#include "core/files.hpp"
 #include "mesh/detail/colour.hpp"
 #include "mesh/detail/draco_codec.hpp"
 #include "mesh/detail/gltf_model.hpp"
 #include "mesh/detail/text.hpp"
+#include "mesh/files.hpp"
+#include "picture/texture.hpp"
 
 namespace rejoin::mesh::detail {
 namespace {
@@ -57,7 +60,8 @@ double component_at(const unsigned char* at, int type, bool normalized) {
 
 class GltfReader {
  public:
-  explicit GltfReader(const Source& source) : name_(source.name), model_(read_gltf_model(source)) {}
+  explicit GltfReader(const Source& source)
+      : name_(source.name), folder_(source.path.parent_path()), file_(read_gltf_model(source)) {}
 
   Soup read() {
     visited_.assign(model_.nodes.size(), false);
@@ -129,13 +133,71 @@ class GltfReader {
           mode == TINYGLTF_MODE_LINE || mode == TINYGLTF_MODE_LINE_LOOP || mode == TINYGLTF_MODE_LINE_STRIP;
       if (lines) continue;
       const auto draco = primitive.extensions.find(kDracoExtension);
-      append(
-          draco != primitive.extensions.end() ? read_draco(draco->second) : read_primitive(primitive, mode),
-          transform);
+      const GltfTexture texture = texture_of(primitive);
+      Soup part = draco != primitive.extensions.end() ? read_draco(draco->second, texture.places)
+                                                      : read_primitive(primitive, mode, texture.places);
+      paint(part, texture);
+      append(std::move(part), transform);
     }
   }
 
-  Soup read_draco(const tinygltf::Value& extension) const {
+  GltfTexture texture_of(const tinygltf::Primitive& primitive) const {
+    const auto material = static_cast<std::size_t>(primitive.material);
+    const auto& textures = file_.textures.of_material;
+    return primitive.material >= 0 && material < textures.size() ? textures[material] : GltfTexture{};
+  }
+
+  /// Gives the points the colours of the picture that lies on the part.
+  void paint(Soup& part, const GltfTexture& use) {
+    if (use.image < 0 || part.places.empty()) return;
+    const picture::Texture* texture = picture_of(use.image);
+    if (texture == nullptr) return;
+    const double cosine = std::cos(use.rotation);
+    const double sine = std::sin(use.rotation);
+    std::vector<glm::u8vec3> colours;
+    colours.reserve(part.points.size());
+    for (std::size_t i = 0; i < part.points.size(); ++i) {
+      const glm::dvec2 place = use.scale * part.places[i];
+      const glm::dvec2 turned{cosine * place.x + sine * place.y, cosine * place.y - sine * place.x};
+      glm::dvec3 linear = to_linear(texture->at(turned + use.offset)) * use.factor;
+      if (!part.colours.empty()) linear *= to_linear(part.colours[i]);
+      colours.push_back(to_srgb(linear));
+    }
+    part.colours = std::move(colours);
+  }
+
+  /// nullptr if it cannot be read, which is noted.  The last one is kept: parts of one picture mostly come together.
+  const picture::Texture* picture_of(int image) {
+    if (image != image_) {
+      image_ = image;
+      picture_.reset();
+      try {
+        picture_.emplace(image_bytes(image), fmt::format("image {}", image));
+      } catch (const Error& error) {
+        soup_.notes.push_back(fmt::format("is left without the colours of a texture ({})", error.what()));
+      }
+    }
+    return picture_ ? &*picture_ : nullptr;
+  }
+
+  std::string image_bytes(int number) const {
+    if (static_cast<std::size_t>(number) >= file_.textures.images.size())
+      fail(fmt::format("image {} does not exist", number));
+    const GltfImage& image = file_.textures.images[static_cast<std::size_t>(number)];
+    if (image.uri.starts_with("data:")) {
+      std::vector<unsigned char> bytes;
+      std::string kind;
+      if (!tinygltf::DecodeDataURI(&bytes, kind, image.uri, 0, false))
+        fail(fmt::format("image {} cannot be decoded", number));
+      return {bytes.begin(), bytes.end()};
+    }
+    if (!image.uri.empty()) return read_file(folder_ / percent_decoded(image.uri));
+    const std::span<const unsigned char> bytes = view_bytes(image.view);
+    return {bytes.begin(), bytes.end()};
+  }
+
+  /// \param places  number of the TEXCOORD that is read
+  Soup read_draco(const tinygltf::Value& extension, int places) const {
     if (!extension.IsObject()) fail("a Draco primitive has no data");
     const tinygltf::Value& view = extension.Get("bufferView");
     if (!view.IsInt()) fail("a Draco primitive names no bufferView");
@@ -146,13 +208,15 @@ class GltfReader {
     };
     const std::span<const unsigned char> bytes = view_bytes(view.Get<int>());
     Soup soup = decode_draco({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name_,
-                             {number("POSITION"), number("NORMAL"), number("COLOR_0")});
+                             {number("POSITION"), number("NORMAL"), number("COLOR_0"),
+                              number(fmt::format("TEXCOORD_{}", places).c_str())});
     for (glm::u8vec3& colour : soup.colours) colour = to_srgb(glm::dvec3(colour) / 255.0);
     return soup;
   }
 
-  Soup read_primitive(const tinygltf::Primitive& primitive, int mode) const {
-    const auto attribute = [&](const char* key) {
+  /// \param places  number of the TEXCOORD that is read
+  Soup read_primitive(const tinygltf::Primitive& primitive, int mode, int places) const {
+    const auto attribute = [&](const std::string& key) {
       const auto found = primitive.attributes.find(key);
       return found == primitive.attributes.end() ? Table{} : read_accessor(found->second);
     };
@@ -167,6 +231,11 @@ class GltfReader {
     const Table colours = attribute("COLOR_0");
     if (colours.width >= 3 && colours.rows() == positions.rows()) {
       for (std::size_t i = 0; i < colours.rows(); ++i) soup.colours.push_back(to_srgb(colours.triple(i)));
+    }
+    const Table on_picture = attribute(fmt::format("TEXCOORD_{}", places));
+    if (on_picture.width == 2 && on_picture.rows() == positions.rows()) {
+      for (std::size_t i = 0; i < on_picture.rows(); ++i)
+        soup.places.emplace_back(on_picture.values[2 * i], on_picture.values[2 * i + 1]);
     }
     if (mode != TINYGLTF_MODE_POINTS) add_faces(soup, primitive.indices, mode);
     return soup;
@@ -264,8 +333,12 @@ class GltfReader {
   }
 
   std::string name_;
-  tinygltf::Model model_;
+  std::filesystem::path folder_;
+  GltfModel file_;
+  const tinygltf::Model& model_ = file_.model;
   Soup soup_;
+  int image_ = -1;  ///< number of the picture that is kept
+  std::optional<picture::Texture> picture_;
   std::vector<bool> visited_;
 };
 

@@ -15,10 +15,13 @@ namespace rejoin::mesh::detail {
 /// Points and polygons as read, in file coordinates and full precision.
 struct Soup {
   std::vector<glm::dvec3> points;
-  std::vector<glm::vec3> normals;      ///< one a point, any length, or empty
-  std::vector<glm::u8vec3> colours;    ///< one a point, or empty
+  std::vector<glm::vec3> normals;    ///< one a point, any length, or empty
+  std::vector<glm::u8vec3> colours;  ///< one a point, or empty
+  std::vector<glm::dvec2>
+      places;  ///< one a point, on a picture, or empty: of parts that a reader has yet to colour
   std::vector<std::uint32_t> corners;  ///< point indices of all polygons, one polygon after the other
   std::vector<std::uint32_t> sizes;    ///< number of corners of every polygon
+  std::vector<std::string> notes;      ///< warnings, without the file's name
 
   void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     corners.insert(corners.end(), {a, b, c});

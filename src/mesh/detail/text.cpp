@@ -92,6 +92,10 @@ std::string_view TextLines::peek_word() const {
   return line_.substr(first, line_.find_first_of(kBlank, first) - first);
 }
 
+std::string_view TextLines::rest() const {
+  return trimmed(line_);
+}
+
 std::string_view TextLines::next_word() {
   const std::string_view word = peek_word();
   line_.remove_prefix(word.empty() ? line_.size() : word.data() + word.size() - line_.data());

@@ -25,6 +25,9 @@ class TextLines {
   /// The same without going on.
   std::string_view peek_word() const;
 
+  /// All that is left of this line, without blanks around it.
+  std::string_view rest() const;
+
   /// Next word as a number; nullopt at the line's end.  \throws InputError the word is not a number
   std::optional<double> next_number();
 

@@ -7,7 +7,7 @@
 
 #include "core/ascii.hpp"
 #include "core/files.hpp"
-#include "outline/detail/image_file.hpp"
+#include "picture/image_file.hpp"
 
 namespace rejoin::outline::detail {
 namespace {
@@ -20,7 +20,7 @@ constexpr double kNothing = 1e-6;  // of opacity
 template <typename Behind>
 cv::Mat visible_colours(const Piece& piece, const Behind& behind) {
   std::vector<cv::Mat> planes;
-  cv::split(load_image(piece.path, kMaxPixels), planes);
+  cv::split(picture::load_image(piece.path, kMaxPixels), planes);
   if (planes.size() == 4) {
     const cv::Mat alpha = planes[3];
     planes.resize(3);
@@ -37,7 +37,7 @@ cv::Mat visible_colours(const Piece& piece, const Behind& behind) {
 }  // namespace
 
 bool is_picture(const Piece& piece) {
-  return has_picture_name(piece.path);
+  return picture::has_picture_name(piece.path);
 }
 
 cv::Mat colours_of(const Piece& piece, int reach) {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace rejoin::outline::detail {
+namespace rejoin::picture {
 
 /// What a picture's header claims.
 struct ImageHeader {
@@ -28,12 +28,16 @@ bool has_picture_name(const std::filesystem::path& path);
 /// Size from the header of a PNG, JPEG or TIFF; nullopt if it is none or its header is broken.
 std::optional<ImageHeader> image_header(std::string_view bytes);
 
-/// Decodes a PNG, JPEG or TIFF to floats 0..1 with 3 channels (blue, green, red) or 4 (and alpha), upright as their
-/// orientation says; of several pages the first.
-/// \param max_pixels  refused above   \param notes  gets what is not read of the file
-/// \throws IoError   the file cannot be read
+/// Decodes a PNG, JPEG or TIFF with the channels that it has, blue before red, upright as its orientation says; of several pages
+/// the first.  Calls on several threads wait for each other.
+/// \param name  for errors   \param max_pixels  refused above   \param notes  gets what is not read of the file
 /// \throws InputError it is no such picture, is larger, or is damaged
+cv::Mat decode_image(const std::string& bytes, const std::string& name, std::size_t max_pixels,
+                     std::vector<std::string>* notes = nullptr);
+
+/// The same of a file, as floats 0..1 with 3 channels (blue, green, red) or 4 (and alpha).
+/// \throws IoError   the file cannot be read   \throws InputError as decode_image()
 cv::Mat load_image(const std::string& path, std::size_t max_pixels,
                    std::vector<std::string>* notes = nullptr);
 
-}  // namespace rejoin::outline::detail
+}  // namespace rejoin::picture

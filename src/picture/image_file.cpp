@@ -1,17 +1,18 @@
-#include "outline/detail/image_file.hpp"
+#include "picture/image_file.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
 #include <iostream>
+#include <mutex>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
 
-namespace rejoin::outline::detail {
+namespace rejoin::picture {
 namespace {
 
 constexpr double kCentimetresAnInch = 2.54;
@@ -190,15 +191,21 @@ void require_usual_samples(const ImageHeader& header, const std::string& path) {
     throw InputError(path, "is a grey TIFF with transparency, which would be lost", "save it as PNG");
 }
 
-/// OpenCV tells what it cannot decode on stderr; the user gets our own words.
+/// OpenCV tells what it cannot decode on stderr; the user gets our own words.  On one thread at a time, as the stream is shared.
 class SilentErrors {
  public:
-  SilentErrors() : before_(std::cerr.rdbuf(nullptr)) {}
+  SilentErrors() : alone_(mutex()), before_(std::cerr.rdbuf(nullptr)) {}
   ~SilentErrors() { std::cerr.rdbuf(before_); }
   SilentErrors(const SilentErrors&) = delete;
   SilentErrors& operator=(const SilentErrors&) = delete;
 
  private:
+  static std::mutex& mutex() {
+    static std::mutex instance;
+    return instance;
+  }
+
+  std::lock_guard<std::mutex> alone_;
   std::streambuf* before_;
 };
 
@@ -256,23 +263,23 @@ std::optional<ImageHeader> image_header(std::string_view bytes) {
   return std::nullopt;
 }
 
-cv::Mat load_image(const std::string& path, std::size_t max_pixels, std::vector<std::string>* notes) {
-  const std::string bytes = read_file(path);
-  if (bytes.empty()) throw InputError(path, "is empty", "save the picture again");
+cv::Mat decode_image(const std::string& bytes, const std::string& name, std::size_t max_pixels,
+                     std::vector<std::string>* notes) {
+  if (bytes.empty()) throw InputError(name, "is empty", "save the picture again");
   const std::optional<ImageHeader> header = image_header(bytes);
   if (!header && starts_like_a_picture(bytes))
-    throw InputError(path, "is cut short or damaged", "save the picture again");
-  if (!header) throw InputError(path, "is no PNG, JPEG or TIFF picture", "convert it to PNG");
+    throw InputError(name, "is cut short or damaged", "save the picture again");
+  if (!header) throw InputError(name, "is no PNG, JPEG or TIFF picture", "convert it to PNG");
   const std::size_t width = std::max<std::size_t>(header->width, 1);
   if (header->height > max_pixels / width) {
-    throw InputError(path,
+    throw InputError(name,
                      fmt::format("its header claims {} x {} pixels; at most {} million are read",
                                  header->width, header->height, max_pixels / 1000000),
                      "scale the picture down or cut it into parts");
   }
   if (is_jpeg(bytes) && !jpeg_is_whole(bytes))
-    throw InputError(path, "is cut short: its end is missing", "save the picture again");
-  require_usual_samples(*header, path);
+    throw InputError(name, "is cut short: its end is missing", "save the picture again");
+  require_usual_samples(*header, name);
   if (notes && header->pages > 1)
     notes->push_back(fmt::format("holds {} pages; the first is read", header->pages));
   cv::Mat image;
@@ -283,11 +290,15 @@ cv::Mat load_image(const std::string& path, std::size_t max_pixels, std::vector<
     image = cv::imdecode(buffer,
                          is_jpeg(bytes) ? cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH : cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception& problem) {
-    throw InputError(path, "cannot be decoded (" + problem.err + ")", "save it as 8-bit PNG");
+    throw InputError(name, "cannot be decoded (" + problem.err + ")", "save it as 8-bit PNG");
   }
   if (image.empty())
-    throw InputError(path, "cannot be decoded; it may be cut short", "save the picture again");
-  return unify(upright(image, header->orientation), path);
+    throw InputError(name, "cannot be decoded; it may be cut short", "save the picture again");
+  return upright(image, header->orientation);
 }
 
-}  // namespace rejoin::outline::detail
+cv::Mat load_image(const std::string& path, std::size_t max_pixels, std::vector<std::string>* notes) {
+  return unify(decode_image(read_file(path), path, max_pixels, notes), path);
+}
+
+}  // namespace rejoin::picture
