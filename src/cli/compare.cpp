@@ -23,7 +23,7 @@ class CompareCommand final : public Command {
         ->required()
         ->group("Input");
     app.add_option("B", path_b_, "scan of the other fragment")->required()->group("Input");
-    app.add_option("--pose", pose_, "B's coordinates to A's: JSON with \"pose\", or 4 x 4 numbers")
+    app.add_option("--pose", pose_, "B's coordinates to A's: JSON or 4 x 4 numbers")
         ->type_name("FILE")
         ->required()
         ->group("Input");

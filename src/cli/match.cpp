@@ -85,7 +85,7 @@ std::vector<std::string> doubts_about_units(const match::Fragment& a, const matc
 class MatchCommand final : public Command {
  public:
   void define(CLI::App& app) override {
-    app.add_option("A", path_a_, "scans (ply obj stl off gltf glb drc); B is moved")
+    app.add_option("A", path_a_, "scans (ply obj stl off gltf glb drc xyz pts); B moves")
         ->required()
         ->group("Input");
     app.add_option("B", path_b_)->required()->group("Input");
