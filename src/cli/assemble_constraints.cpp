@@ -3,11 +3,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
 
 #include "cli/json_values.hpp"
+#include "cli/pose_file.hpp"
 #include "core/error.hpp"
 
 namespace rejoin::cli {
@@ -98,7 +100,9 @@ class Reader {
     for (const auto& [name, rows] : json["poses"].items()) {
       const std::string place = fmt::format("\"poses\".\"{}\"", name);
       const std::size_t number = number_of(name, place);
-      const std::optional<Rigid> pose = rigid_from_json(rows);
+      const std::optional<Rigid> pose =
+          rows.is_string() ? read_pose(std::filesystem::path(path_).parent_path() / rows.get<std::string>())
+                           : rigid_from_json(rows);
       if (!pose) fail(fmt::format("{} {}", place, kNoRigid));
       if (std::any_of(result.begin(), result.end(), [&](const auto& p) { return p.first == number; }))
         fail(place + " is given twice");

@@ -18,9 +18,11 @@ struct ConstraintsFile {
 /// \throws IoError it cannot be read   \throws InputError it is nested without end
 ConstraintsFile open_constraints(const std::string& path);
 
-/// Reads {"must_join": [[A, B], ...], "must_not_join": [[A, B], ...], "poses": {A: 4 x 4, ...}}; every part may be missing.
+/// Reads {"must_join": [[A, B], ...], "must_not_join": [[A, B], ...], "poses": {A: 4 x 4, ...}}; every part may be missing.  A pose may
+/// be the name of a file with the 4 x 4 numbers, from the folder of the constraints.
 /// \param names     of the fragments; those in the file are these
 /// \param unusable  other fragments, with the reasons, for the message
+/// \throws IoError a file of a pose cannot be read
 /// \throws InputError it is no such file, names a fragment that is not there, a fragment with itself, or a pair as both
 assembly::Constraints read_constraints(const ConstraintsFile& file, const std::vector<std::string>& names,
                                        const std::map<std::string, std::string>& unusable = {});

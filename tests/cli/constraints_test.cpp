@@ -32,6 +32,32 @@ TEST(ReadConstraints, FindsPairsAndPosesByName) {
   EXPECT_EQ(constraints.pinned[0].second({1, 0, 0}), glm::dvec3(5, 7, 7));
 }
 
+TEST(ReadConstraints, TakesAPoseFromTheFileOfAMatrixBesideThem) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "cloudcompare");
+  write_file(folder / "cloudcompare/c.txt", "0 -1 0 5\n1 0 0 6\n0 0 1 7\n0 0 0 1\n");
+  write_file(folder / "wishes.json", R"({"poses": {"c.ply": "cloudcompare/c.txt"}})");
+  const assembly::Constraints constraints =
+      read_constraints(open_constraints(folder / "wishes.json"), kNames);
+  ASSERT_EQ(constraints.pinned.size(), 1U);
+  EXPECT_EQ(constraints.pinned[0].first, 2U);
+  EXPECT_EQ(constraints.pinned[0].second({1, 0, 0}), glm::dvec3(5, 7, 7));
+  const auto expect_refused = [&](const std::string& says) {
+    try {
+      read_constraints(open_constraints(folder / "wishes.json"), kNames);
+      FAIL() << says;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
+    }
+  };
+  write_file(folder / "cloudcompare/c.txt", "0 -1 0 5\n1 0 0 6\n0 0 1 7\n");
+  expect_refused("c.txt: is neither JSON nor a matrix");
+  write_file(folder / "cloudcompare/c.txt", "2 0 0 0\n0 2 0 0\n0 0 2 0\n0 0 0 1\n");
+  expect_refused("is no 4 x 4 matrix");
+  std::filesystem::remove(folder / "cloudcompare/c.txt");
+  expect_refused("c.txt: cannot be");
+}
+
 TEST(ReadConstraints, AnEmptyObjectAsksForNothing) {
   const assembly::Constraints constraints = read("{}");
   EXPECT_TRUE(constraints.must_join.empty() && constraints.must_not_join.empty() &&
