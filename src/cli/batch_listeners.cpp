@@ -3,9 +3,10 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <set>
+
+#include "cli/broken_pipe.hpp"
 
 namespace rejoin::cli {
 namespace {
@@ -79,10 +80,10 @@ class ConsoleListener final : public WarningListener {
   }
 };
 
-/// A file name may be no UTF-8, but JSON must be: such bytes are replaced.  Flushed, for who reads a pipe wants to know now.
+/// A file name may be no UTF-8, but JSON must be: such bytes are replaced.  A program that no longer reads wants no more.
 void print_line(Console& console, const ordered_json& json) {
   console.result(json.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n");
-  std::fflush(stdout);
+  if (reader_is_gone()) end_without_reader();
 }
 
 void add_progress(ordered_json& json, const batch::Progress& progress) {

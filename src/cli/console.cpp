@@ -24,6 +24,15 @@ std::string harmless_line(std::string_view text) {
   return result;
 }
 
+namespace {
+
+/// Without an exception where nothing takes it: files are worth more than words, and the end of main() looks at stdout.
+void put(std::FILE* stream, const std::string& text) {
+  static_cast<void>(std::fwrite(text.data(), 1, text.size(), stream));
+}
+
+}  // namespace
+
 Console::Console() : terminal_(isatty(STDERR_FILENO) == 1) {}
 
 Console::~Console() {
@@ -33,7 +42,7 @@ Console::~Console() {
 void Console::result(std::string_view text) {
   end_progress();
   if (quiet) return;
-  fmt::print("{}", harmless(text));
+  put(stdout, harmless(text));
   std::fflush(stdout);  // Ctrl-C during the pictures that follow must not lose it
 }
 
@@ -44,13 +53,13 @@ void Console::wrote(const std::filesystem::path& file) {
 void Console::warning(std::string_view text) {
   if (!warned_.emplace(text).second) return;
   end_progress();
-  fmt::print(stderr, "rejoin: warning: {}\n", harmless_line(text));
+  put(stderr, fmt::format("rejoin: warning: {}\n", harmless_line(text)));
 }
 
 void Console::detail(std::string_view text) {
   if (!verbose) return;
   end_progress();
-  fmt::print(stderr, "{}\n", harmless(text));
+  put(stderr, harmless(text) + "\n");
 }
 
 void Console::progress(std::string_view stage, double fraction) {
@@ -60,8 +69,8 @@ void Console::progress(std::string_view stage, double fraction) {
   if (!terminal_ || quiet || (bar_drawn_ && now - last_drawn_ < kPause)) return;
   const double share = std::clamp(fraction, 0.0, 1.0);
   const int full = static_cast<int>(share * kWidth);
-  fmt::print(stderr, "\r\033[K[{:=<{}}{: <{}}] {:3.0f} % {}", "", full, "", kWidth - full, 100 * share,
-             harmless_line(stage));
+  put(stderr, fmt::format("\r\033[K[{:=<{}}{: <{}}] {:3.0f} % {}", "", full, "", kWidth - full, 100 * share,
+                          harmless_line(stage)));
   std::fflush(stderr);
   bar_drawn_ = true;
   last_drawn_ = now;
@@ -69,7 +78,7 @@ void Console::progress(std::string_view stage, double fraction) {
 
 void Console::end_progress() {
   if (!bar_drawn_) return;
-  fmt::print(stderr, "\r\033[K");
+  put(stderr, "\r\033[K");
   std::fflush(stderr);
   bar_drawn_ = false;
 }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "cli/arguments.hpp"
+#include "cli/broken_pipe.hpp"
 #include "cli/command.hpp"
 #include "cli/help.hpp"
 #include "cli/interrupt.hpp"
@@ -145,12 +146,12 @@ int explain(const CLI::App& root, const CLI::ParseError& error) {
     return root.exit(error) == 0 ? kDone : kFailure;
   std::string text = words.empty() ? error.what() : unexpected(words, *app, command);
   std::replace(text.begin(), text.end(), '\n', ' ');  // CLI11 tells several things on several lines
-  fmt::print(stderr, "rejoin: {}; see {} --help\n", harmless(text), command);
+  std::fputs(fmt::format("rejoin: {}; see {} --help\n", harmless(text), command).c_str(), stderr);
   return kWrongUse;
 }
 
 int fail(const std::string& text, ExitCode code) {
-  fmt::print(stderr, "rejoin: {}\n", harmless_line(text));
+  std::fputs(fmt::format("rejoin: {}\n", harmless_line(text)).c_str(), stderr);
   return code;
 }
 
@@ -173,8 +174,9 @@ int run_program(int argc, char** argv) {
 /// Results that nobody can have read must not look like success: a full disk shows when the last bytes are written.
 int with_results_written(int code) {
   std::cout.flush();
-  if (code != kDone || (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()))
-    return code;
+  std::fflush(stdout);
+  if (reader_is_gone()) end_without_reader();
+  if (code != kDone || (std::ferror(stdout) == 0 && std::cout.good())) return code;
   return fail("standard output: cannot be written; the results are not whole", kFailure);
 }
 
@@ -183,9 +185,11 @@ int with_results_written(int code) {
 
 int main(int argc, char** argv) {
   using namespace rejoin::cli;
+  outlive_reader();
   try {
     return with_results_written(run_program(argc, argv));
   } catch (const rejoin::Error& error) {
+    if (reader_is_gone() && !std::cout.good()) end_without_reader();  // this is what the error tells
     return fail(error.what(), kFailure);
   } catch (const std::bad_alloc&) {
     return fail("out of memory; use a smaller scan", kFailure);

@@ -1,6 +1,8 @@
 /// What rejoin match prints and writes.
 #include "planted_match.hpp"
 
+#include <csignal>
+
 namespace rejoin::cli::testing {
 namespace {
 
@@ -53,6 +55,33 @@ TEST_F(MatchOutput, WarnsOfScansInDifferentUnits) {
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_NE(warnings[0].get<std::string>().find(path), std::string::npos) << warnings[0];
   EXPECT_EQ(result_of(quick({}))["warnings"].size(), 0U);
+}
+
+// As behind "| head -1": results are printed before the models are written.
+TEST_F(MatchOutput, ReaderThatIsGoneCostsNoFiles) {
+  const auto without_reader = [](const std::vector<std::string>& arguments) {
+    return Running(arguments, {}, Reader::Nobody).finish();
+  };
+  const Finished match = without_reader(quick({"--json", json, "--out", folder / "out"}));
+  EXPECT_EQ(match.exit_code, 128 + SIGPIPE) << "as of any program whose output could not be read";
+  EXPECT_EQ(match.err, "");
+  EXPECT_EQ(ordered_json::parse(read_file(json))["verdict"], "join");
+  for (const char* name : {"out/match.png", "out/joined.glb", "out/depth_a.png"})
+    EXPECT_FALSE(read_file(folder / name).empty()) << name;
+
+  std::filesystem::create_directory(folder / "scans");
+  for (const std::string& scan : {a, b}) std::filesystem::copy(scan, folder / "scans");
+  const Finished assemble = without_reader({"assemble", folder / "scans", "--out", folder / "all"});
+  EXPECT_EQ(assemble.exit_code, 128 + SIGPIPE) << assemble.err;
+  for (const char* name : {"all/assembled.png", "all/assembled.glb", "all/run/assembly.json"})
+    EXPECT_FALSE(read_file(folder / name).empty()) << name;
+
+  const Finished lines = without_reader({"batch", folder / "scans", "--out", folder / "run", "--json"});
+  EXPECT_EQ(lines.exit_code, 128 + SIGPIPE) << lines.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "run/pairs.csv")) << "nobody follows the course, so it ends";
+  const Finished page = without_reader(quick({"--json", "-"}));
+  EXPECT_EQ(page.exit_code, 128 + SIGPIPE);
+  EXPECT_EQ(page.err, "");
 }
 
 TEST_F(MatchOutput, DashIsStdoutForJsonAloneAndNoFile) {

@@ -26,7 +26,8 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
 
 }  // namespace
 
-Running::Running(const std::vector<std::string>& arguments, const std::vector<std::string>& environment) {
+Running::Running(const std::vector<std::string>& arguments, const std::vector<std::string>& environment,
+                 Reader reader) {
   std::vector<std::string> words{REJOIN_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<std::string> settings = environment;
@@ -35,6 +36,7 @@ Running::Running(const std::vector<std::string>& arguments, const std::vector<st
   std::array<int, 2> out{};
   std::array<int, 2> err{};
   if (pipe(out.data()) != 0 || pipe(err.data()) != 0) throw std::runtime_error("no pipe");
+  if (reader == Reader::Nobody) close(out[0]);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", 0, 0);
@@ -46,7 +48,7 @@ Running::Running(const std::vector<std::string>& arguments, const std::vector<st
   posix_spawn_file_actions_destroy(&actions);
   close(out[1]);
   close(err[1]);
-  out_pipe_ = out[0];
+  out_pipe_ = reader == Reader::Nobody ? -1 : out[0];
   err_pipe_ = err[0];
   if (failed != 0) throw std::runtime_error("cannot start " REJOIN_PROGRAM);
 }

@@ -13,13 +13,16 @@ struct Finished {
   std::string err;
 };
 
+/// Who reads the program's stdout: nobody does behind a "| true" that has ended.
+enum class Reader { Us, Nobody };
+
 /// A started program with its stdout and stderr in pipes.
 class Running {
  public:
   /// \param arguments    after the program's name
   /// \param environment  "NAME=value", added to ours
   explicit Running(const std::vector<std::string>& arguments,
-                   const std::vector<std::string>& environment = {});
+                   const std::vector<std::string>& environment = {}, Reader reader = Reader::Us);
   ~Running();
   Running(const Running&) = delete;
   Running& operator=(const Running&) = delete;
