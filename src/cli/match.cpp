@@ -98,10 +98,11 @@ class MatchCommand final : public Command {
         ->expected(1)
         ->take_all()
         ->group("Input");
+    app.add_option("--near", near_, "look near a rough pose, as of --json or 4 x 4 numbers")
+        ->type_name("FILE")
+        ->group("Input");
     app.option_defaults()->group("Search");
     add_choice(app, "--propose", by_rims_, kProposers, "what proposes poses; rims: of thin sherds");
-    app.add_option("--near", near_, "look near a rough pose, as of --json or 4 x 4 numbers")
-        ->type_name("FILE");
     options_.define(app);
   }
 
