@@ -1,5 +1,7 @@
 #include "match/match.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -54,6 +56,22 @@ std::vector<int> facets_facing(const Fragment& fragment, const std::vector<glm::
   return list;
 }
 
+/// What to tell of directions that no facet faces: the closest ones are searched.
+void doubt_directions(const Fragment& fragment, const std::vector<glm::dvec3>& directions,
+                      double tolerance_deg, std::vector<std::string>& warnings) {
+  for (const glm::dvec3& direction : directions) {
+    double closest = -1.0;
+    for (const mesh::Facet& facet : fragment.facets.facets)
+      closest = std::max(closest, glm::dot(facet.normal, glm::normalize(direction)));
+    const double off_deg = std::acos(std::min(closest, 1.0)) / kDegree;
+    if (off_deg <= tolerance_deg + kFacetSpread_deg) continue;
+    warnings.push_back(fmt::format(
+        "{}: no facet faces {:.3g},{:.3g},{:.3g}; the closest one is {:.0f} degrees off: directions "
+        "point out of the piece, in its file's axes (see rejoin facets)",
+        fragment.path, direction.x, direction.y, direction.z, off_deg));
+  }
+}
+
 std::vector<int> allowed_facets(const Fragment& fragment, const std::vector<int>& chosen,
                                 const std::vector<glm::dvec3>& directions, const Options& options) {
   if (!chosen.empty()) return in_both_cuts(fragment, chosen);
@@ -69,6 +87,8 @@ bool axes_agree(const Rigid& pose, const Options& options) {
 
 std::vector<Hypothesis> run_sweep(const Fragment& a, const Fragment& b, const Options& options,
                                   const std::optional<Near>& near, const Context& context, Result& result) {
+  doubt_directions(a, options.directions_a, options.tolerance_deg, result.warnings);
+  doubt_directions(b, options.directions_b, options.tolerance_deg, result.warnings);
   SweepOptions sweep_options;
   sweep_options.facets_a = allowed_facets(a, options.facets_a, options.directions_a, options);
   sweep_options.facets_b = allowed_facets(b, options.facets_b, options.directions_b, options);

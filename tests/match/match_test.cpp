@@ -147,6 +147,22 @@ TEST(Match, AsksForDirectionsAndLooksNowhereElse) {
   EXPECT_LT(narrow.evaluations, wide.evaluations);
 }
 
+// The sides of this block face along the axes, so its corners' direction lies 55 degrees from the closest.
+TEST(Match, TellsOfADirectionThatNoFacetFaces) {
+  const Fragment below = prepare("below", testing::half_block(true, 48), Context{});
+  const Fragment above = prepare("above", testing::half_block(false, 48), Context{});
+  Options options;
+  options.constraint = Constraint::Direction;
+  options.directions_a = {{0, 0, 1}};
+  EXPECT_TRUE(match(below, above, options, Context{}).warnings.empty());
+  options.directions_a = {{1, 1, -1}};
+  const Result result = match(below, above, options, Context{});
+  ASSERT_EQ(result.warnings.size(), 1U);
+  EXPECT_NE(result.warnings[0].find("below: no facet faces 1,1,-1; the closest one is 55 degrees off"),
+            std::string::npos)
+      << result.warnings[0];
+}
+
 TEST(Match, CancelledSearchReturnsAtOnceAndSaysSo) {
   const Pair pair = make_pair(8);
   Context context;
