@@ -30,8 +30,10 @@ Grower::Grower(const std::vector<Piece>& pieces, const std::vector<Link>& links,
     : pieces_(pieces), links_(links), options_(options) {
   want(options.constraints.must_join);  // links that may be wanted are kept, however unlikely
   for (const auto& [a, b] : options.constraints.must_not_join) unwanted_.push_back(key_of(a, b));
+  const double doubted = log_odds(options.sure) - kDoubt;  // too little for a link to be used alone
   for (std::size_t k = 0; k < links.size(); ++k) {
-    odds_.push_back(odds_of(links[k]));
+    const double odds = log_odds(links[k].score);
+    odds_.push_back(links[k].holds ? odds : std::min(odds, doubted));
     if (must(unwanted_, k)) continue;
     if (odds_[k] >= kLeastOdds || must(wanted_, k)) links_of_[key_of(links[k].a, links[k].b)].push_back(k);
   }
@@ -40,12 +42,6 @@ Grower::Grower(const std::vector<Piece>& pieces, const std::vector<Link>& links,
                      [&](std::size_t x, std::size_t y) { return odds_[x] > odds_[y]; });
   }
   want({});
-}
-
-/// The link's log-odds; a little too low to be used alone if it does not hold.
-double Grower::odds_of(const Link& link) const {
-  const double odds = log_odds(link.score);
-  return link.holds ? odds : std::min(odds, log_odds(options_.sure) - kDoubt);
 }
 
 void Grower::want(const std::vector<std::pair<std::size_t, std::size_t>>& pairs) {

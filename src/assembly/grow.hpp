@@ -125,7 +125,6 @@ class Grower {
   Rigid transform(const State& state, std::size_t link, std::size_t into) const;
   std::vector<Touching> contacts_of(const Growth& growth, const std::vector<std::size_t>& members) const;
   bool must(const std::vector<Key>& pairs, std::size_t link) const;
-  double odds_of(const Link& link) const;
 
   const std::vector<Piece>& pieces_;
   const std::vector<Link>& links_;
