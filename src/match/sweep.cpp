@@ -7,35 +7,23 @@
 
 #include "core/parallel.hpp"
 #include "match/cuts.hpp"
+#include "match/strip.hpp"
 
 namespace rejoin::match {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kAcross = 5.0;     // pixels across a strip, at least
-constexpr double kSide = 18.0;      // pixels in the root of a facet's area, at least
-constexpr double kMost = 512.0;     // pixels in the root of the larger map, at most: else maps take gigabytes
-constexpr double kElongated = 3.0;  // length over mean width from which a facet is a strip
-constexpr double kStripTurn = 0.4;  // strips lie along each other within 23 degrees
-constexpr double kFinest = 0.7;     // of the scans' resolution: below it there is nothing to see
-constexpr double kCoarse = 1.6;     // pixels of a first look at plates against those of the second,
+constexpr double kAcross = 5.0;  // pixels across a strip, at least
+constexpr double kSide = 18.0;   // pixels in the root of a facet's area, at least
+constexpr double kMost = 512.0;  // pixels in the root of the larger map, at most: else maps take gigabytes
+constexpr double kFinest = 0.7;  // of the scans' resolution: below it there is nothing to see
+constexpr double kCoarse = 1.6;  // pixels of a first look at plates against those of the second,
 constexpr double kWorthALook = 1.3;  // and at least: looks with hardly larger pixels save nothing
 constexpr double kTurnsKept = 0.15;  // share of a first look's turns that get a second
 constexpr std::size_t kLeastTurns = 3;
 constexpr double kSlack = 0.25;  // of a step of the second look, by which its turns may lie further apart
 constexpr int kPeaksNear = 200;  // a turn, where all but those near a rough pose are dropped
 constexpr double kSmallFacet = 0.02;  // of the largest facet's area: too small to tell
-
-double mean_width(const FacetPatch& patch) {
-  return patch.area / std::max(patch.length, 1e-30);
-}
-bool is_strip(const FacetPatch& patch) {
-  return patch.length > kElongated * mean_width(patch);
-}
-
-bool are_strips(const FacetPatch& a, const FacetPatch& b) {
-  return is_strip(a) && is_strip(b);
-}
 
 /// Pixel size of the maps, mesh units.
 double pitch_for(const FacetPatch& a, const FacetPatch& b) {
@@ -45,14 +33,8 @@ double pitch_for(const FacetPatch& a, const FacetPatch& b) {
 }
 
 std::vector<double> turns_for(const FacetPatch& a, const FacetPatch& b, double step) {
+  if (are_strips(a, b)) return turns_along(a, b, step);
   std::vector<double> turns;
-  if (are_strips(a, b)) {
-    const int side = static_cast<int>(std::ceil(kStripTurn / step));
-    for (const double base : {0.0, kPi}) {
-      for (int k = -side; k <= side; ++k) turns.push_back(base + k * kStripTurn / side);
-    }
-    return turns;
-  }
   const int count = static_cast<int>(std::ceil(2.0 * kPi / step));
   for (int k = 0; k < count; ++k) turns.push_back(2.0 * kPi * k / count);
   return turns;

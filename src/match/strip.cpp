@@ -1,0 +1,113 @@
+#include "match/strip.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rejoin::match {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kElongated = 3.0;  // length over mean width from which a facet is a strip
+constexpr double kStretch =
+    0.5;  // of the shorter strip: where less than that joins, its course does not count
+constexpr std::size_t kStretches = 32;
+constexpr double kAstray = 0.25;  // radians, by which stretches that join may be turned
+constexpr double kApart = 0.5;    // of the mean width, by which their bends may part at their ends
+
+/// The course of a stretch: v = bow * u^2 in axes turned by `direction`.
+struct Course {
+  double direction = 0;  ///< radians, against x; its opposite is the same
+  double bow = 0;
+};
+
+bool is_strip(const FacetPatch& patch) {
+  return patch.length > kElongated * mean_width(patch);
+}
+
+/// The points of a stretch, relative to their mean.
+std::vector<glm::dvec2> stretch_at(const std::vector<glm::vec3>& points, const glm::vec2& middle,
+                                   double radius) {
+  const auto reach = static_cast<float>(radius * radius);
+  std::vector<glm::dvec2> near;
+  glm::dvec2 sum(0.0);
+  for (const glm::vec3& point : points) {
+    const glm::vec2 from = glm::vec2(point) - middle;
+    if (glm::dot(from, from) > reach) continue;
+    near.emplace_back(from);
+    sum += near.back();
+  }
+  for (glm::dvec2& p : near) p -= sum / static_cast<double>(near.size());
+  return near;
+}
+
+Course course_of(const std::vector<glm::dvec2>& stretch) {
+  double uu = 0.0;
+  double uv = 0.0;
+  double vv = 0.0;
+  for (const glm::dvec2& p : stretch) {
+    uu += p.x * p.x;
+    uv += p.x * p.y;
+    vv += p.y * p.y;
+  }
+  const double direction = 0.5 * std::atan2(2.0 * uv, uu - vv);
+  const glm::dvec2 along(std::cos(direction), std::sin(direction));
+  double squares = 0.0;
+  double fourths = 0.0;
+  double bent = 0.0;
+  for (const glm::dvec2& p : stretch) {
+    const double u = glm::dot(p, along);
+    squares += u * u;
+    fourths += u * u * u * u;
+    bent += u * u * (along.x * p.y - along.y * p.x);
+  }
+  const double variance = fourths - squares * squares / static_cast<double>(stretch.size());
+  return {direction, variance > 0.0 ? bent / variance : 0.0};
+}
+
+std::vector<Course> courses(const FacetPatch& strip, double length) {
+  std::vector<Course> result;
+  const std::size_t count = std::min(kStretches, strip.points.size());
+  for (std::size_t k = 0; k < count; ++k) {
+    const glm::vec2 middle(strip.points[k * strip.points.size() / count]);
+    result.push_back(course_of(stretch_at(strip.points, middle, 0.5 * length)));
+  }
+  return result;
+}
+
+}  // namespace
+
+double mean_width(const FacetPatch& patch) {
+  return patch.area / std::max(patch.length, 1e-30);
+}
+
+bool are_strips(const FacetPatch& a, const FacetPatch& b) {
+  return is_strip(a) && is_strip(b);
+}
+
+std::vector<double> turns_along(const FacetPatch& a, const FacetPatch& b, double step) {
+  const double wide = std::max(mean_width(a), mean_width(b));
+  const double length = std::max(kStretch * std::min(a.length, b.length), kElongated * wide);
+  const double alike = kApart * wide / (0.25 * length * length);
+  const int count = static_cast<int>(std::ceil(2.0 * kPi / step));
+  const double turn = 2.0 * kPi / count;
+  std::vector<char> wanted(static_cast<std::size_t>(count), 0);
+  const std::vector<Course> of_b = courses(b, length);
+  for (const Course& x : courses(a, length)) {
+    for (const Course& y : of_b) {
+      for (const bool about : {false, true}) {
+        if (std::abs(x.bow - (about ? -y.bow : y.bow)) > alike) continue;
+        const double middle = x.direction + y.direction + (about ? kPi : 0.0);
+        const int last = static_cast<int>(std::floor((middle + kAstray) / turn));
+        for (int k = static_cast<int>(std::ceil((middle - kAstray) / turn)); k <= last; ++k)
+          wanted[static_cast<std::size_t>(((k % count) + count) % count)] = 1;
+      }
+    }
+  }
+  std::vector<double> turns;
+  for (int k = 0; k < count; ++k) {
+    if (wanted[static_cast<std::size_t>(k)] != 0) turns.push_back(turn * k);
+  }
+  return turns;
+}
+
+}  // namespace rejoin::match

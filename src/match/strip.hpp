@@ -1,0 +1,21 @@
+/// Narrow fracture facets, as sherds have.
+#pragma once
+
+#include <vector>
+
+#include "match/relief.hpp"
+
+namespace rejoin::match {
+
+/// Area over length, mesh units.
+double mean_width(const FacetPatch& patch);
+
+/// Whether both facets are so much longer than wide that they can join along each other only.
+bool are_strips(const FacetPatch& a, const FacetPatch& b);
+
+/// Turns of b's patch against a's, 0 to 2 pi, at which some stretch of one strip lies along one of the other that is bent alike.  A break
+/// around a vessel is an arc, of which another sherd may have any part.
+/// \param step  between neighbouring turns, radians
+std::vector<double> turns_along(const FacetPatch& a, const FacetPatch& b, double step);
+
+}  // namespace rejoin::match

@@ -1,0 +1,83 @@
+#include "match/strip.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rejoin::match {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kDegree = kPi / 180.0;
+constexpr double kRadius = 50.0;
+constexpr double kWide = 6.0;
+constexpr double kStep = 2.0 * kDegree;
+
+/// A strip from points, its length along x as measured.
+FacetPatch strip_of(std::vector<glm::vec3> points) {
+  FacetPatch strip;
+  glm::vec3 low = points.front();
+  glm::vec3 high = points.front();
+  for (const auto& p : points) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  strip.length = static_cast<double>(high.x - low.x);
+  strip.width = static_cast<double>(high.y - low.y);
+  strip.area = strip.length * kWide;
+  strip.points = std::move(points);
+  return strip;
+}
+
+/// The break around a vessel between two angles from the top of a circle, with the middle of its chord along x.
+/// \param facing  as the partner has it, seen from its own side
+FacetPatch arc(double from_deg, double to_deg, bool facing) {
+  const double middle = 0.5 * (from_deg + to_deg) * kDegree;
+  std::vector<glm::vec3> points;
+  for (double angle = from_deg * kDegree; angle <= to_deg * kDegree; angle += 0.5 * kDegree) {
+    for (double across = -0.5 * kWide; across <= 0.5 * kWide; across += 1.0) {
+      const double x = (kRadius + across) * std::sin(angle - middle);
+      const double y = (kRadius + across) * std::cos(angle - middle);
+      points.emplace_back(facing ? -x : x, y, 0.0);
+    }
+  }
+  return strip_of(std::move(points));
+}
+
+/// The least distance of a turn from those that are looked at, radians.
+double missed_by(const std::vector<double>& turns, double turn) {
+  double least = kPi;
+  for (const double t : turns) least = std::min(least, std::abs(std::remainder(t - turn, 2.0 * kPi)));
+  return least;
+}
+
+TEST(Strip, AShortSherdMayJoinAnyPartOfALongBentBreak) {
+  const FacetPatch whole = arc(-75, 75, false);
+  for (const double at : {-55.0, -30.0, 0.0, 55.0}) {
+    const auto turns = turns_along(whole, arc(at - 20, at + 20, true), kStep);
+    EXPECT_LE(missed_by(turns, -at * kDegree), kStep) << at;
+  }
+}
+
+// The turn that lays a hollow break on a bulging one the right way round is half a turn off.
+TEST(Strip, BreaksThatAreBentTheOtherWayAreNotLaidAlongEachOther) {
+  const auto turns = turns_along(arc(-40, 40, false), arc(-40, 40, true), kStep);
+  EXPECT_LE(missed_by(turns, 0.0), kStep);
+  EXPECT_GT(missed_by(turns, kPi), 60 * kDegree);
+}
+
+TEST(Strip, StraightBreaksAreLaidAlongEachOtherEitherWayOnly) {
+  std::vector<glm::vec3> points;
+  for (double x = -30; x <= 30; x += 0.5) {
+    for (double y = -0.5 * kWide; y <= 0.5 * kWide; y += 1.0) points.emplace_back(x, y, 0.0);
+  }
+  const auto turns = turns_along(strip_of(points), strip_of(points), kStep);
+  EXPECT_LE(missed_by(turns, 0.0), kStep);
+  EXPECT_LE(missed_by(turns, kPi), kStep);
+  EXPECT_GT(missed_by(turns, 0.5 * kPi), 60 * kDegree);
+  EXPECT_TRUE(std::is_sorted(turns.begin(), turns.end()));
+}
+
+}  // namespace
+}  // namespace rejoin::match
