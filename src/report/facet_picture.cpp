@@ -3,78 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
-#include <utility>
 
 #include "report/canvas.hpp"
+#include "report/numbered_picture.hpp"
 
 namespace rejoin::report {
-namespace {
-
-constexpr int kPanel = 480;
-constexpr int kTop = 64;
-constexpr double kRoom = 7;  // pixels from its number to a facet's border, for a number in every view
-
-struct View {
-  glm::dvec3 back;
-  glm::dvec3 up;
-};
-
-constexpr double kLift = 0.3;  // the eye is a little above, so that edges between faces can be seen
-
-std::array<View, 6> six_sides() {
-  const glm::dvec3 x(1, 0, 0);
-  const glm::dvec3 y(0, 1, 0);
-  const glm::dvec3 z(0, 0, 1);
-  return {{{glm::normalize(z + kLift * y), y},
-           {glm::normalize(x + kLift * y), y},
-           {glm::normalize(y + kLift * x), -z},
-           {glm::normalize(-z + kLift * y), y},
-           {glm::normalize(-x + kLift * y), y},
-           {glm::normalize(-y - kLift * x), z}}};
-}
-
-/// Upper left corner of a view, pixels.
-glm::ivec2 corner_of(int panel) {
-  const int row = panel / 3;
-  return {(panel % 3) * kPanel, kTop + row * kPanel};
-}
-
-/// The number on a bright rim, so that it can be read on any colour.
-void draw_number(Image& image, const glm::dvec2& at, int number) {
-  constexpr double kHalf = 6;  // of the height of a digit
-  constexpr double kRim = 2;
-  const std::string text = std::to_string(number);
-  for (const glm::dvec2 d :
-       {glm::dvec2(-1, 0), {1, 0}, {0, -1}, {0, 1}, {-0.7, -0.7}, {-0.7, 0.7}, {0.7, -0.7}, {0.7, 0.7}}) {
-    draw_text(image, at.x + kRim * d.x, at.y + kHalf + kRim * d.y, text,
-              {2 * kHalf, Colour(255), Align::Middle, true});
-  }
-  draw_text(image, at.x, at.y + kHalf, text, {2 * kHalf, kInk, Align::Middle, true});
-}
-
-/// Numbers in the views where they have room; else in the one where they have most.
-std::vector<std::vector<FacetLabel>> chosen_labels(std::vector<std::vector<FacetLabel>> views,
-                                                   std::size_t facets) {
-  std::vector<double> most(facets, 0.0);
-  for (const auto& labels : views) {
-    for (const FacetLabel& label : labels) {
-      double& room = most[static_cast<std::size_t>(label.facet)];
-      room = std::max(room, label.room);
-    }
-  }
-  for (auto& labels : views) {
-    const auto cramped = [&](const FacetLabel& label) {
-      return label.room < kRoom && label.room < most[static_cast<std::size_t>(label.facet)];
-    };
-    labels.erase(std::remove_if(labels.begin(), labels.end(), cramped), labels.end());
-  }
-  return views;
-}
-
-}  // namespace
 
 Colour facet_colour(int number, const mesh::Segmentation& facets) {
   if (number < 0) return {60, 60, 60};
@@ -88,69 +22,18 @@ Colour facet_colour(int number, const mesh::Segmentation& facets) {
   return {channel(5.0), channel(3.0), channel(1.0)};
 }
 
-std::vector<FacetLabel> facet_labels(const Visibility& seen, const std::vector<int>& facet_of_face) {
-  // One step of paper all around: the picture's edge is a border, too.
-  cv::Mat facet(seen.height + 2, seen.width + 2, CV_32SC1, cv::Scalar(-1));
-  int last = -1;
-  for (int y = 0; y < seen.height; ++y) {
-    for (int x = 0; x < seen.width; ++x) {
-      const auto pixel =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(seen.width) + static_cast<std::size_t>(x);
-      if (seen.body[pixel] < 0) continue;
-      facet.at<int>(y + 1, x + 1) = facet_of_face[seen.face[pixel]];
-      last = std::max(last, facet.at<int>(y + 1, x + 1));
-    }
-  }
-  std::vector<FacetLabel> labels;
-  for (int number = 0; number <= last; ++number) {
-    const cv::Mat mask = facet == number;
-    cv::Mat room;
-    cv::distanceTransform(mask, room, cv::DIST_L2, cv::DIST_MASK_PRECISE);
-    double most = 0;
-    cv::Point at;
-    cv::minMaxLoc(room, nullptr, &most, nullptr, &at);
-    if (most > 0) labels.push_back({number, at.x - 1, at.y - 1, most});
-  }
-  return labels;
-}
-
 Image facet_picture(const mesh::Mesh& surface, const mesh::Segmentation& facets, const std::string& title) {
-  const std::vector<int> facet_of_face = mesh::facet_of_faces(facets, mesh::sample_of_faces(facets, surface));
-  Body body;
-  body.mesh = &surface;
-  body.face_colours.reserve(facet_of_face.size());
-  for (const int facet : facet_of_face) body.face_colours.push_back(facet_colour(facet, facets));
-  const std::vector<Body> bodies{body};
-  const Scene scene(bodies);
-  Image image(3 * kPanel, kTop + 2 * kPanel, kPaper);
-  draw_text(image, 16, 28, fitted(title, {15, kInk, Align::Left, true}, 3 * kPanel - 32),
-            {15, kInk, Align::Left, true});
   const auto fractures = std::count_if(facets.facets.begin(), facets.facets.end(),
                                        [](const mesh::Facet& facet) { return facet.fracture; });
-  draw_text(image, 16, 52,
-            fmt::format("{} fracture facets in colour, original surface grey; {}", fractures,
-                        facets.wall_thickness > 0
-                            ? fmt::format("wall {} thick", short_number(facets.wall_thickness))
-                            : std::string("solid")),
-            {12, kFaint, Align::Left, false});
-  RenderOptions options;
-  options.width = options.height = kPanel;
-  options.relief = 0.8;
-  std::vector<std::vector<FacetLabel>> labels;
-  for (const View& view : six_sides()) {
-    const int panel = static_cast<int>(labels.size());
-    const Camera camera = scene.overview(view.back, view.up);
-    const glm::ivec2 corner = corner_of(panel);
-    paste(image, scene.render(camera, options), corner.x, corner.y);
-    labels.push_back(facet_labels(scene.look(camera, kPanel, kPanel), facet_of_face));
-  }
-  labels = chosen_labels(std::move(labels), facets.facets.size());
-  for (int panel = 0; panel < static_cast<int>(labels.size()); ++panel) {
-    for (const FacetLabel& label : labels[static_cast<std::size_t>(panel)]) {
-      draw_number(image, glm::dvec2(corner_of(panel) + glm::ivec2(label.x, label.y)) + 0.5, label.facet);
-    }
-  }
-  return image;
+  NumberedPicture what;
+  what.title = title;
+  what.subtitle = fmt::format("{} fracture facets in colour, original surface grey; {}", fractures,
+                              facets.wall_thickness > 0
+                                  ? fmt::format("wall {} thick", short_number(facets.wall_thickness))
+                                  : std::string("solid"));
+  what.part_of_face = mesh::facet_of_faces(facets, mesh::sample_of_faces(facets, surface));
+  what.colour = [&facets](int facet) { return facet_colour(facet, facets); };
+  return numbered_picture(surface, what);
 }
 
 }  // namespace rejoin::report

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "planted.hpp"
+#include "report/numbered_picture.hpp"
 
 namespace rejoin::report {
 namespace {
@@ -74,18 +75,18 @@ void expect_labels_where_there_is_most_room(const Visibility& seen, const std::v
       room = std::max(room, room_at(seen, facet_of_face, x, y));
     }
   }
-  const std::vector<FacetLabel> labels = facet_labels(seen, facet_of_face);
+  const std::vector<PartLabel> labels = part_labels(seen, facet_of_face);
   EXPECT_EQ(labels.size(), static_cast<std::size_t>(
                                std::count_if(most.begin(), most.end(), [](double r) { return r > 0; })));
-  for (const FacetLabel& label : labels) {
-    EXPECT_EQ(facet_at(seen, facet_of_face, label.x, label.y), label.facet);
-    EXPECT_NEAR(room_at(seen, facet_of_face, label.x, label.y), most[static_cast<std::size_t>(label.facet)],
+  for (const PartLabel& label : labels) {
+    EXPECT_EQ(facet_at(seen, facet_of_face, label.x, label.y), label.part);
+    EXPECT_NEAR(room_at(seen, facet_of_face, label.x, label.y), most[static_cast<std::size_t>(label.part)],
                 1e-3);
-    EXPECT_NEAR(label.room, most[static_cast<std::size_t>(label.facet)], 1e-3);
+    EXPECT_NEAR(label.room, most[static_cast<std::size_t>(label.part)], 1e-3);
   }
 }
 
-TEST(FacetLabels, LieOnTheirOwnFacetInEveryView) {
+TEST(PartLabels, LieOnTheirOwnFacetInEveryView) {
   const Planted planted = planted_pair(20);
   const mesh::Segmentation facets = mesh::segment(planted.a.surface);
   const std::vector<int> facet_of_face =
@@ -100,7 +101,7 @@ TEST(FacetLabels, LieOnTheirOwnFacetInEveryView) {
 }
 
 // The middle of the ring is the disc's, and that of the two patches is paper.
-TEST(FacetLabels, OfARingAndOfTwoPatchesLieOnThem) {
+TEST(PartLabels, OfARingAndOfTwoPatchesLieOnThem) {
   Visibility seen{41, 31, std::vector<int>(41 * 31, -1), std::vector<std::uint32_t>(41 * 31, 0)};
   const auto paint = [&](int x, int y, std::uint32_t facet) {
     const auto pixel = static_cast<std::size_t>(y * seen.width + x);
@@ -118,7 +119,7 @@ TEST(FacetLabels, OfARingAndOfTwoPatchesLieOnThem) {
   }
   const std::vector<int> facet_of_face{0, 1, 2};
   expect_labels_where_there_is_most_room(seen, facet_of_face);
-  EXPECT_EQ(facet_labels(seen, facet_of_face).size(), 3U);
+  EXPECT_EQ(part_labels(seen, facet_of_face).size(), 3U);
 }
 
 }  // namespace
