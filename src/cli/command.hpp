@@ -40,6 +40,7 @@ std::unique_ptr<Command> make_facets_command();
 std::unique_ptr<Command> make_outline_command();
 std::unique_ptr<Command> make_assemble_command();
 std::unique_ptr<Command> make_shatter_command();
+std::unique_ptr<Command> make_split_command();
 std::unique_ptr<Command> make_report_command();
 std::unique_ptr<Command> make_info_command();
 std::unique_ptr<Command> make_bench_command();

@@ -7,6 +7,7 @@
 #include "cli/command.hpp"
 #include "cli/fragment.hpp"
 #include "cli/json_values.hpp"
+#include "cli/outputs.hpp"
 #include "core/files.hpp"
 #include "mesh/facets.hpp"
 #include "mesh/save.hpp"
@@ -75,12 +76,6 @@ std::string facets_json(const match::Fragment& fragment) {
                              {"facets", list},
                              {"warnings", fragment.warnings}};
   return text_of(json);
-}
-
-void require_ending(const char* option, const std::optional<std::string>& file, const char* ending) {
-  if (!file || std::filesystem::path(*file).extension() == ending) return;
-  throw UsageError(option, fmt::format("'{}' does not end in {}", *file, ending),
-                   fmt::format("name a {} file", ending));
 }
 
 class FacetsCommand final : public Command {

@@ -80,6 +80,13 @@ void require_apart(const std::string& option, const fs::path& output, const fs::
   if (fs::is_regular_file(output, ignored) && is_same(output, input)) refuse(option, output);
 }
 
+void require_ending(const std::string& option, const std::optional<std::string>& file,
+                    const std::string& ending) {
+  if (!file || fs::path(*file).extension() == ending) return;
+  throw UsageError(option, fmt::format("'{}' does not end in {}", *file, ending),
+                   fmt::format("name a {} file", ending));
+}
+
 void require_sound_paths(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     const bool is_empty =

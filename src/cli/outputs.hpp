@@ -3,6 +3,7 @@
 
 #include <CLI/App.hpp>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace rejoin::cli {
@@ -12,6 +13,10 @@ namespace rejoin::cli {
 /// \throws UsageError both are the same file
 void require_apart(const std::string& option, const std::filesystem::path& output,
                    const std::filesystem::path& input);
+
+/// \throws UsageError an output's name does not end in `ending`, such as ".png"
+void require_ending(const std::string& option, const std::optional<std::string>& file,
+                    const std::string& ending);
 
 /// Looks at the values of a parsed command's, and its commands', options in the groups "Input" and "Output".
 /// \throws UsageError an input or output is empty, an output is a file that is read too or a scan or piece in a folder that is read, or has the name of a file where a

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "core/error.hpp"
@@ -10,6 +11,7 @@
 #include "mesh/bodies.hpp"
 #include "mesh/noise.hpp"
 #include "mesh/surface.hpp"
+#include "mesh/table.hpp"
 
 namespace rejoin::match {
 namespace {
@@ -54,18 +56,17 @@ void doubt_several_bodies(Fragment& fragment) {
     list += fmt::format("{}{:.0f} %", list.empty() ? "" : ", ", 100.0 * share);
   fragment.warnings.push_back(fmt::format(
       "{}: holds {} bodies side by side ({} of its area) and is matched as one piece: if they are "
-      "several, give each a file of its own (split it into connected components in the scanning "
-      "software or MeshLab)",
+      "several, give each a file of its own (rejoin split)",
       fragment.path, shares.size(), list));
 }
 
 void doubt_table(Fragment& fragment) {
-  const double share = mesh::table(fragment.surface);
-  if (share == 0) return;
+  const std::optional<mesh::Table> table = mesh::find_table(fragment.surface);
+  if (!table) return;
   fragment.warnings.push_back(fmt::format(
       "{}: {:.0f} % of it is a plane, as a table that was scanned with the piece is; it hides the breaks: "
-      "remove it in the scanning software",
-      fragment.path, 100.0 * share));
+      "cut it off (rejoin split)",
+      fragment.path, 100.0 * table->share));
 }
 
 }  // namespace

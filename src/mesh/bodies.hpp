@@ -14,9 +14,4 @@ namespace rejoin::mesh {
 /// \pre the mesh has faces, which face outwards
 std::vector<double> bodies(const Mesh& mesh);
 
-/// The share of the area that is one plane on which the rest stands and that reaches beyond the rest on every side, as a table does, or
-/// a plane that hangs together with nothing else and has more than 0.3 of it; 0 if there is none.  A piece's flat underside has the piece behind it, and a plate's floor ends at its rim.
-/// \pre as of bodies()
-double table(const Mesh& mesh);
-
 }  // namespace rejoin::mesh

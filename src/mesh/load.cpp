@@ -94,14 +94,14 @@ bool has_scan_name(const std::filesystem::path& path) {
   return find_format(extension_of(path)) != nullptr;
 }
 
-Loaded load(const std::filesystem::path& path, Weld weld) {
+Loaded load(const std::filesystem::path& path, Weld weld, Content content) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error))
     throw IoError(path.string(), "is a folder", "name a mesh file");
   const Format& format = format_of(path);
   const detail::Source source = detail::read_source(path);
   require_format(source, format);
-  Loaded loaded = detail::clean(format.read(source), source.name, weld);
+  Loaded loaded = detail::clean(format.read(source), source.name, weld, content);
   loaded.format = format.name;
   return loaded;
 }

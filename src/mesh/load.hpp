@@ -23,6 +23,12 @@ enum class Weld {
   PlacesAndColours,  ///< of the same colour, too: borders of painted patches stay sharp, at the price of open edges
 };
 
+/// What a file is to be taken for.
+enum class Content {
+  OnePiece,
+  Several,  ///< pieces and what they lie on: small parts, strays and the normals of a cloud are left as they are (there may be none)
+};
+
 /// Whether a file's name ends as those do that load() reads.
 bool has_scan_name(const std::filesystem::path& path);
 
@@ -38,6 +44,6 @@ bool has_scan_name(const std::filesystem::path& path);
 /// \throws InputError  unknown extension, empty or not such a file, NaN or infinite coordinate (names its
 ///                     vertex), index out of range (names its face), nothing or less than half left after clean-up,
 ///                     next to no area, not between 1e-6 and 1e9 across, floats too far from the origin
-Loaded load(const std::filesystem::path& path, Weld weld = Weld::Places);
+Loaded load(const std::filesystem::path& path, Weld weld = Weld::Places, Content content = Content::OnePiece);
 
 }  // namespace rejoin::mesh

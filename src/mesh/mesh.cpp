@@ -196,4 +196,15 @@ Mesh submesh(const Mesh& mesh, const std::vector<std::uint32_t>& faces) {
   return part;
 }
 
+Mesh points_of(const Mesh& cloud, const std::vector<std::uint32_t>& points) {
+  Mesh part;
+  part.origin = cloud.origin;
+  for (const std::uint32_t i : points) {
+    part.vertices.push_back(cloud.vertices[i]);
+    if (!cloud.normals.empty()) part.normals.push_back(cloud.normals[i]);
+    if (!cloud.colours.empty()) part.colours.push_back(cloud.colours[i]);
+  }
+  return part;
+}
+
 }  // namespace rejoin::mesh

@@ -56,4 +56,7 @@ void compute_normals(Mesh& mesh);
 /// The mesh of the chosen faces alone, with the vertices that they use.  Same origin.
 Mesh submesh(const Mesh& mesh, const std::vector<std::uint32_t>& faces);
 
+/// The cloud of the chosen points alone.  Same origin.
+Mesh points_of(const Mesh& cloud, const std::vector<std::uint32_t>& points);
+
 }  // namespace rejoin::mesh

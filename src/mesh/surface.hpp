@@ -19,6 +19,9 @@ namespace rejoin::mesh {
 /// \pre cloud.is_cloud() with normals
 Mesh surface_of_cloud(const Mesh& cloud);
 
+/// Gives a cloud without normals those that load() would estimate.
+void estimate_normals(Mesh& cloud);
+
 /// A mesh of about `face_budget` faces (never more than the input's) for depth maps; the error stays small
 /// against a pixel at the resolutions that budget is meant for.  Falls back to vertex clustering where the
 /// topology stops the quadric simplifier.

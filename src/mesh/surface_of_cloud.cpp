@@ -1,3 +1,4 @@
+#include "mesh/detail/cloud_normals.hpp"
 #include "mesh/detail/fill_holes.hpp"
 #include "mesh/detail/local_delaunay.hpp"
 #include "mesh/detail/sheet.hpp"
@@ -13,6 +14,10 @@ Mesh surface_of_cloud(const Mesh& cloud) {
   Mesh mesh = cloud;
   mesh.faces = sheet.faces();
   return mesh;
+}
+
+void estimate_normals(Mesh& cloud) {
+  cloud.normals = detail::estimate_normals(cloud.vertices, detail::neighbours_of(cloud.vertices));
 }
 
 }  // namespace rejoin::mesh

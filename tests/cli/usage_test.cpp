@@ -176,6 +176,11 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUse{"CalibrationForAnotherAssembly",
                  {"outline", "assemble", "pieces", "--method", "emd", "--calibration", "c.json"},
                  "serves multiscale only"},
+        WrongUse{"SplitWithoutFolder", {"split", "a.ply"}, "--out is required"},
+        WrongUse{"SplitIntoAFile", {"split", "a.ply", "--out", "b.ply"}, "--out takes a folder"},
+        WrongUse{
+            "SplitCutWithoutTable", {"split", "a.ply", "--out", "o", "--cut", "1", "--table", "no"}, "--cut"},
+        WrongUse{"SplitPictureNotPng", {"split", "a.ply", "--out", "o", "--png", "p.jpg"}, "--png"},
         WrongUse{"BenchResolution", {"bench", "--resolution", "1"}, "--resolution"}),
     [](const auto& info) { return std::string(info.param.name); });
 
@@ -196,8 +201,8 @@ TEST_P(HelpTest, FitsAScreen) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Commands, HelpTest,
-                         ::testing::Values("", "match", "compare", "facets", "assemble", "shatter", "info",
-                                           "bench"),
+                         ::testing::Values("", "match", "compare", "facets", "assemble", "shatter", "split",
+                                           "info", "bench"),
                          [](const auto& info) { return *info.param ? std::string(info.param) : "Root"; });
 
 TEST(Help, OfACommandWithinACommandNamesTheProgram) {
@@ -235,8 +240,8 @@ TEST(Version, IsTheProjectsVersionOnStdout) {
 TEST(GenerateDocs, WritesAManPageForEveryCommandAndACompletionThatBashReads) {
   const TemporaryFolder folder;
   ASSERT_EQ(run({"generate-docs", folder / "docs"}).exit_code, 0);
-  for (const char* command : {"match", "compare", "facets", "assemble", "shatter", "info", "bench", "outline",
-                              "outline-assemble"}) {
+  for (const char* command : {"match", "compare", "facets", "assemble", "shatter", "split", "info", "bench",
+                              "outline", "outline-assemble"}) {
     const std::string page = read_file(folder / ("docs/rejoin-" + std::string(command) + ".1"));
     EXPECT_NE(page.find(".SH SYNOPSIS"), std::string::npos) << command;
   }

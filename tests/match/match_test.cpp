@@ -63,6 +63,7 @@ TEST(Prepare, TellsOfTwoBodiesAndOfATable) {
   ASSERT_EQ(several.warnings.size(), 1U);
   EXPECT_EQ(several.warnings[0].find("two: holds 2 bodies side by side (50 %, 50 % of its area)"), 0U)
       << several.warnings[0];
+  EXPECT_NE(several.warnings[0].find("rejoin split"), std::string::npos) << several.warnings[0];
 
   mesh::Mesh standing = block;
   const float far = 2.0F * glm::distance(box.low, box.high);
@@ -73,7 +74,8 @@ TEST(Prepare, TellsOfTwoBodiesAndOfATable) {
   const Fragment table = prepare("table", standing, Context{});
   EXPECT_EQ(std::ranges::count_if(table.warnings,
                                   [](const std::string& text) {
-                                    return text.find("is a plane, as a table") != std::string::npos;
+                                    return text.find("is a plane, as a table") != std::string::npos &&
+                                           text.find("rejoin split") != std::string::npos;
                                   }),
             1);
 }

@@ -188,7 +188,7 @@ void weld_loose(Loaded& loaded, const std::string& name) {
   }
 }
 
-void clean_faces(Loaded& loaded, const std::string& name) {
+void clean_faces(Loaded& loaded, const std::string& name, Content content) {
   Mesh& mesh = loaded.mesh;
   const std::size_t before = mesh.faces.size();
   const Dropped dropped = drop_useless_faces(mesh);
@@ -207,7 +207,7 @@ void clean_faces(Loaded& loaded, const std::string& name) {
     loaded.warnings.push_back(
         fmt::format("{}: dropped {} of {} faces that are there twice", name, dropped.duplicate, before));
   }
-  const Specks specks = drop_specks(mesh);
+  const Specks specks = content == Content::OnePiece ? drop_specks(mesh) : Specks{};
   if (specks.parts > 0) {
     loaded.warnings.push_back(
         fmt::format("{}: dropped {} of {} faces, in {} far from the rest (remove specks in the scanning "
@@ -265,18 +265,31 @@ std::size_t drop_without_normal(Mesh& mesh) {
   return dropped;
 }
 
-void clean_cloud(Loaded& loaded, const std::string& name) {
+/// Drops normals that most points have none of, or the few points without one.
+void require_normals_of_all_or_none(Loaded& loaded, const std::string& name) {
   Mesh& mesh = loaded.mesh;
   const std::size_t count = mesh.vertices.size();
   const auto usable = std::count_if(mesh.normals.begin(), mesh.normals.end(), is_usable);
   if (2 * static_cast<std::size_t>(usable) < count) {
-    loaded.warnings.push_back(
-        name + ": the points have no normals, estimated them (export normals for a surer result)");
     mesh.normals.clear();
   } else if (const std::size_t dropped = drop_without_normal(mesh); dropped > 0) {
     loaded.warnings.push_back(
         fmt::format("{}: dropped {} of {} points without a usable normal", name, dropped, count));
   }
+  normalize_all(mesh.normals);
+}
+
+void require_spread(const Mesh& cloud, const std::string& name, std::size_t count) {
+  if (is_line(cloud.vertices)) {
+    throw InputError(name, fmt::format("its {} distinct points span no area", count),
+                     "export the scan again");
+  }
+  require_usual_size(cloud, name);
+}
+
+/// Drops strays, and makes or turns normals.
+void clean_piece(Loaded& loaded, const std::string& name, std::size_t count) {
+  Mesh& mesh = loaded.mesh;
   NeighbourLists near = neighbours_of(mesh.vertices);
   if (const std::size_t strays = drop_stray_points(mesh, near); strays > 0) {
     near = neighbours_of(mesh.vertices);
@@ -285,17 +298,12 @@ void clean_cloud(Loaded& loaded, const std::string& name) {
                     "software)",
                     name, strays, count));
   }
-  if (is_line(mesh.vertices)) {
-    throw InputError(name, fmt::format("its {} distinct points span no area", count),
-                     "export the scan again");
-  }
-  require_usual_size(mesh, name);
+  require_spread(mesh, name, count);
   if (mesh.normals.empty()) {
     mesh.normals = estimate_normals(mesh.vertices, near);
     normalize_all(mesh.normals);
     return;
   }
-  normalize_all(mesh.normals);
   switch (check_normals(mesh, near)) {
     case NormalsFound::Good:
       break;
@@ -310,9 +318,20 @@ void clean_cloud(Loaded& loaded, const std::string& name) {
   }
 }
 
+void clean_cloud(Loaded& loaded, const std::string& name, Content content) {
+  const std::size_t count = loaded.mesh.vertices.size();
+  require_normals_of_all_or_none(loaded, name);
+  if (content == Content::Several) return require_spread(loaded.mesh, name, count);
+  if (loaded.mesh.normals.empty()) {
+    loaded.warnings.push_back(
+        name + ": the points have no normals, estimated them (export normals for a surer result)");
+  }
+  clean_piece(loaded, name, count);
+}
+
 }  // namespace
 
-Loaded clean(const Soup& soup, const std::string& name, Weld which) {
+Loaded clean(const Soup& soup, const std::string& name, Weld which, Content content) {
   check_points(soup, name);
   check_corners(soup, name);
   Loaded loaded;
@@ -328,9 +347,9 @@ Loaded clean(const Soup& soup, const std::string& name, Weld which) {
   weld(loaded.mesh, which);
   if (!cloud) weld_loose(loaded, name);
   if (cloud) {
-    clean_cloud(loaded, name);
+    clean_cloud(loaded, name, content);
   } else {
-    clean_faces(loaded, name);
+    clean_faces(loaded, name, content);
   }
   return loaded;
 }

@@ -31,4 +31,21 @@ std::vector<Part> measured_parts(const Mesh& mesh, const std::vector<std::uint32
   return parts;
 }
 
+std::vector<Part> measured_point_parts(const Mesh& cloud, const std::vector<std::uint32_t>& part_of_point) {
+  std::vector<Part> parts(*std::max_element(part_of_point.begin(), part_of_point.end()) + 1);
+  for (std::size_t i = 0; i < cloud.vertices.size(); ++i) {
+    const glm::dvec3 point(cloud.vertices[i]);
+    const glm::dvec3 facing = cloud.normals.empty() ? glm::dvec3(0.0) : glm::dvec3(cloud.normals[i]);
+    parts[part_of_point[i]].add({point, point, 1.0, facing});
+  }
+  return parts;
+}
+
+std::vector<std::vector<std::uint32_t>> members_of_parts(const std::vector<std::uint32_t>& part_of,
+                                                         std::size_t parts) {
+  std::vector<std::vector<std::uint32_t>> members(parts);
+  for (std::uint32_t i = 0; i < part_of.size(); ++i) members[part_of[i]].push_back(i);
+  return members;
+}
+
 }  // namespace rejoin::mesh::detail

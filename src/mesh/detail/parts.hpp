@@ -54,4 +54,11 @@ std::vector<std::uint32_t> part_of_faces(const Mesh& mesh);
 /// Every part's box, area and facing.
 std::vector<Part> measured_parts(const Mesh& mesh, const std::vector<std::uint32_t>& part_of_face);
 
+/// The same of a cloud: boxes, numbers of points, and the sums of their normals if it has some.
+std::vector<Part> measured_point_parts(const Mesh& cloud, const std::vector<std::uint32_t>& part_of_point);
+
+/// Every part's faces, or points, in ascending order.
+std::vector<std::vector<std::uint32_t>> members_of_parts(const std::vector<std::uint32_t>& part_of,
+                                                         std::size_t parts);
+
 }  // namespace rejoin::mesh::detail

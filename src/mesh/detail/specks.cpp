@@ -6,9 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/components.hpp"
-#include "core/median.hpp"
-#include "core/parallel.hpp"
+#include "mesh/detail/cloud_parts.hpp"
 #include "mesh/detail/parts.hpp"
 
 namespace rejoin::mesh::detail {
@@ -16,7 +14,6 @@ namespace {
 
 constexpr double kSmall = 0.01;  // of the whole area, or of all points
 constexpr double kApart = 0.1;   // of the diagonal of the larger parts' box
-constexpr float kSparse = 2.5F;  // times the reach that is usual among its neighbours
 
 /// Which parts are specks.
 std::vector<bool> specks_among(const std::vector<Part>& parts) {
@@ -44,30 +41,6 @@ std::vector<bool> specks_among(const std::vector<Part>& parts) {
     if (!result[k]) kept.add(parts[k]);
   }
   return result;
-}
-
-/// Distance of every point from the furthest of its neighbours.
-std::vector<float> reaches(const std::vector<glm::vec3>& points, const NeighbourLists& near) {
-  std::vector<float> result(points.size());
-  for (std::size_t i = 0; i < result.size(); ++i)
-    result[i] = glm::distance(points[i], points[near[i].back()]);
-  return result;
-}
-
-/// What is usual among every point's neighbours.
-std::vector<float> usual_reach(const std::vector<float>& reach, const NeighbourLists& near) {
-  std::vector<float> usual(reach.size());
-  parallel_for(usual.size(), 512, [&](std::size_t first, std::size_t last) {
-    std::vector<float> around;
-    for (std::size_t i = first; i < last; ++i) {
-      around.clear();
-      for (const std::uint32_t k : near[i]) {
-        if (k != i) around.push_back(reach[k]);
-      }
-      usual[i] = median(around);
-    }
-  });
-  return usual;
 }
 
 void drop_points(Mesh& cloud, const std::vector<bool>& dropped) {
@@ -105,28 +78,15 @@ Specks drop_specks(Mesh& mesh) {
 std::size_t drop_stray_points(Mesh& cloud, const NeighbourLists& near) {
   const std::size_t count = cloud.vertices.size();
   if (count <= 4 * kNeighbours) return 0;
-  const std::vector<float> reach = reaches(cloud.vertices, near);
-  const std::vector<float> usual = usual_reach(reach, near);
-  std::vector<bool> dropped(count);
-  for (std::size_t i = 0; i < count; ++i) dropped[i] = reach[i] > kSparse * usual[i];
-
-  Components components(count);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    for (const std::uint32_t k : near[i]) {
-      const float step = glm::distance(cloud.vertices[i], cloud.vertices[k]);
-      if (!dropped[i] && !dropped[k] && step <= kSparse * usual[i]) components.unite(i, k);
-    }
-  }
-  PartNumbers numbers(components, count);
-  std::vector<Part> parts;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const std::uint32_t part = numbers.of(i);
-    if (part == parts.size()) parts.emplace_back();
+  const CloudParts found = parts_of_cloud(cloud.vertices, near);
+  std::vector<Part> parts(found.count);
+  for (std::size_t i = 0; i < count; ++i) {
     const glm::dvec3 point(cloud.vertices[i]);
-    if (!dropped[i]) parts[part].add({point, point, 1.0, {}});
+    if (!found.stray[i]) parts[found.part_of_point[i]].add({point, point, 1.0, {}});
   }
+  std::vector<bool> dropped = found.stray;
   const std::vector<bool> specks = specks_among(parts);
-  for (std::uint32_t i = 0; i < count; ++i) dropped[i] = dropped[i] || specks[numbers.of(i)];
+  for (std::uint32_t i = 0; i < count; ++i) dropped[i] = dropped[i] || specks[found.part_of_point[i]];
   const auto strays = static_cast<std::size_t>(std::count(dropped.begin(), dropped.end(), true));
   if (strays > 0) drop_points(cloud, dropped);
   return strays;

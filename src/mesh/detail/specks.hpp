@@ -19,9 +19,8 @@ struct Specks {
 /// \pre no face is degenerate
 Specks drop_specks(Mesh& mesh);
 
-/// Drops the points of a cloud that belong to no surface: those with an emptier neighbourhood than their neighbours have
-/// (by more than 2.5; after the local outlier factor, Breunig et al. 2000), and small groups far from the rest as drop_specks()
-/// does (less than 1 % of the points).
+/// Drops the points of a cloud that belong to no surface: strays (cloud_parts.hpp), and small groups far from the rest as
+/// drop_specks() does (less than 1 % of the points).
 /// \param near  neighbours_of() the cloud's points
 /// \return how many
 std::size_t drop_stray_points(Mesh& cloud, const NeighbourLists& near);
