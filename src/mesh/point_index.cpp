@@ -96,4 +96,8 @@ void PointIndex::nearest(const glm::vec3& point, std::size_t k, std::vector<std:
   impl_->ready_tree().knnSearch(&point.x, found.size(), found.data(), squared.data());
 }
 
+const std::vector<std::uint32_t>& PointIndex::by_place() const {
+  return impl_->ready_tree().vAcc;
+}
+
 }  // namespace rejoin::mesh

@@ -44,6 +44,10 @@ class PointIndex {
   /// The k nearest, nearest first.
   void nearest(const glm::vec3& point, std::size_t k, std::vector<std::uint32_t>& found) const;
 
+  /// All indices, those of points near each other mostly near each other: whoever asks for each point's neighbours in this order
+  /// finds most of them in the processor's caches, however the points themselves are ordered.
+  const std::vector<std::uint32_t>& by_place() const;
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

@@ -176,7 +176,8 @@ class Rest {
       : name_(name), scan_(std::move(scan)), spacing_(spacing) {
     const std::vector<std::uint32_t> part_of =
         scan_.is_cloud()
-            ? detail::parts_of_cloud(scan_.vertices, detail::neighbours_of(scan_.vertices)).part_of_point
+            ? detail::parts_of_cloud(scan_.vertices, detail::CloudNeighbours(scan_.vertices).near())
+                  .part_of_point
             : detail::part_of_faces(scan_);
     parts_ = measured(scan_, part_of);
     members_ = detail::members_of_parts(part_of, parts_.size());

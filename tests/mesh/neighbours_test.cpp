@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/random.hpp"
+#include "mesh/detail/neighbour_lists.hpp"
 #include "mesh/point_index.hpp"
 #include "random_points.hpp"
 
@@ -62,6 +65,40 @@ TEST(Neighbours, FarAwayThereAreNone) {
     neighbours.of(far, found);
     EXPECT_TRUE(found.empty());
   }
+}
+
+/// Whether fewer neighbours, asked one by one, are the first of the many that are kept.
+void expect_fewer_to_be_the_first(const std::vector<glm::vec3>& points) {
+  const PointIndex index(points);
+  detail::CloudNeighbours neighbours(points);
+  ASSERT_EQ(neighbours.wide().size(), points.size());
+  std::vector<std::uint32_t> expected;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    index.nearest(points[i], detail::kNeighbours, expected);
+    ASSERT_TRUE(std::ranges::equal(neighbours.near()[i], expected)) << i;
+    for (const std::size_t fewer : {std::size_t{1}, std::size_t{7}, detail::kNeighbours}) {
+      index.nearest(points[i], fewer, expected);
+      ASSERT_TRUE(std::ranges::equal(neighbours.wide()[i].first(fewer), expected)) << i << ", " << fewer;
+    }
+  }
+}
+
+TEST(CloudNeighbours, FewerAreTheFirstOfMoreWhereManyLieEquallyFarToo) {
+  Random random(11);
+  std::vector<glm::vec3> points(3000);
+  for (glm::vec3& point : points) point = random_point(random, 1.0F, kThin);
+  expect_fewer_to_be_the_first(points);
+  points.clear();
+  for (int k = 0; k < 3000; ++k) points.emplace_back(k % 50, k / 50, 0);  // a depth camera's
+  expect_fewer_to_be_the_first(points);
+}
+
+TEST(CloudNeighbours, OfFewPointsAreAll) {
+  const std::vector<glm::vec3> points{{0, 0, 0}, {3, 0, 0}, {1, 0, 0}};
+  detail::CloudNeighbours neighbours(points);
+  ASSERT_EQ(neighbours.near().each(), 3U);
+  EXPECT_TRUE(std::ranges::equal(neighbours.near()[0], std::vector<std::uint32_t>{0, 2, 1}));
+  EXPECT_TRUE(std::ranges::equal(neighbours.wide()[1], std::vector<std::uint32_t>{1, 2, 0}));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/error.hpp"
 #include "core/words.hpp"
@@ -290,9 +291,9 @@ void require_spread(const Mesh& cloud, const std::string& name, std::size_t coun
 /// Drops strays, and makes or turns normals.
 void clean_piece(Loaded& loaded, const std::string& name, std::size_t count) {
   Mesh& mesh = loaded.mesh;
-  NeighbourLists near = neighbours_of(mesh.vertices);
-  if (const std::size_t strays = drop_stray_points(mesh, near); strays > 0) {
-    near = neighbours_of(mesh.vertices);
+  std::optional<CloudNeighbours> neighbours(mesh.vertices);
+  if (const std::size_t strays = drop_stray_points(mesh, neighbours->near()); strays > 0) {
+    neighbours.emplace(mesh.vertices);
     loaded.warnings.push_back(
         fmt::format("{}: dropped {} of {} points that lie apart from the rest (remove strays in the scanning "
                     "software)",
@@ -300,11 +301,11 @@ void clean_piece(Loaded& loaded, const std::string& name, std::size_t count) {
   }
   require_spread(mesh, name, count);
   if (mesh.normals.empty()) {
-    mesh.normals = estimate_normals(mesh.vertices, near);
+    mesh.normals = estimate_normals(mesh.vertices, neighbours->near());
     normalize_all(mesh.normals);
     return;
   }
-  switch (check_normals(mesh, near)) {
+  switch (check_normals(mesh, *neighbours)) {
     case NormalsFound::Good:
       break;
     case NormalsFound::InsideOut:

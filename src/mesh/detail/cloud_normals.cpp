@@ -10,7 +10,7 @@
 #include "mesh/detail/directions.hpp"
 #include "mesh/detail/local_fit.hpp"
 #include "mesh/detail/outlook.hpp"
-#include "mesh/surface.hpp"
+#include "mesh/detail/surface_of_cloud.hpp"
 
 namespace rejoin::mesh::detail {
 namespace {
@@ -21,9 +21,12 @@ constexpr double kStray = 5e-4;     // share of neighbours with opposite normals
 constexpr double kAgreeing = 0.95;  // share of good normals that turning along the surface leaves, or turns
 constexpr double kBetter = 0.2;     // of all rays, that leave from the front and not from the back
 
+using MutualLists = std::vector<std::vector<std::uint32_t>>;
+
 /// Made symmetric, so that a walk reaches whole parts.
-NeighbourLists mutual(const NeighbourLists& lists) {
-  NeighbourLists both = lists;
+MutualLists mutual(const NeighbourLists& lists) {
+  MutualLists both(lists.size());
+  for (std::uint32_t i = 0; i < lists.size(); ++i) both[i].assign(lists[i].begin(), lists[i].end());
   for (std::uint32_t i = 0; i < lists.size(); ++i) {
     for (const std::uint32_t k : lists[i]) both[k].push_back(i);
   }
@@ -44,7 +47,7 @@ struct Step {
 /// Turns normals to agree with each other within every part.
 class Walker {
  public:
-  Walker(const NeighbourLists& neighbours, std::vector<glm::vec3>& normals)
+  Walker(const MutualLists& neighbours, std::vector<glm::vec3>& normals)
       : neighbours_(neighbours), normals_(normals), decided_(normals.size(), false) {}
 
   bool reached(std::uint32_t i) const { return decided_[i]; }
@@ -72,7 +75,7 @@ class Walker {
     }
   }
 
-  const NeighbourLists& neighbours_;
+  const MutualLists& neighbours_;
   std::vector<glm::vec3>& normals_;
   std::vector<bool> decided_;
   std::priority_queue<Step, std::vector<Step>, std::greater<>> steps_;
@@ -103,7 +106,7 @@ bool points_inwards(const std::vector<std::uint32_t>& part, const std::vector<gl
 
 void turn_outwards(const NeighbourLists& lists, const std::vector<glm::vec3>& points,
                    std::vector<glm::vec3>& normals) {
-  const NeighbourLists neighbours = mutual(lists);
+  const MutualLists neighbours = mutual(lists);
   Walker walker(neighbours, normals);
   for (std::uint32_t seed = 0; seed < points.size(); ++seed) {
     if (walker.reached(seed)) continue;
@@ -133,8 +136,8 @@ double agreement(const std::vector<glm::vec3>& before, const std::vector<glm::ve
 }
 
 /// What can be seen from the surface through a cloud.
-Outlook outlook_of(const Mesh& cloud) {
-  const Mesh surface = surface_of_cloud(cloud);
+Outlook outlook_of(const Mesh& cloud, CloudNeighbours& neighbours) {
+  const Mesh surface = surface_of_cloud(cloud, neighbours);
   if (surface.faces.empty() || !(surface_area(surface) > 0)) return {};
   return outlook(surface);
 }
@@ -159,20 +162,21 @@ std::vector<glm::vec3> estimate_normals(const std::vector<glm::vec3>& points, co
   return normals;
 }
 
-NormalsFound check_normals(Mesh& cloud, const NeighbourLists& near) {
+NormalsFound check_normals(Mesh& cloud, CloudNeighbours& neighbours) {
+  const NeighbourLists& near = neighbours.near();
   if (opposite_share(cloud.normals, near) > kStray) {
     Mesh turned = cloud;
     turn_outwards(near, turned.vertices, turned.normals);
     if (agreement(cloud.normals, turned.normals) < kAgreeing) {
-      const Outlook before = outlook_of(cloud);
-      const Outlook after = outlook_of(turned);
+      const Outlook before = outlook_of(cloud, neighbours);
+      const Outlook after = outlook_of(turned, neighbours);
       if (after.front - after.back > before.front - before.back + kBetter) {
         cloud.normals = std::move(turned.normals);
         return NormalsFound::Mixed;
       }
     }
   }
-  if (swelling(cloud) >= 0 || !is_inside_out(outlook_of(cloud))) return NormalsFound::Good;
+  if (swelling(cloud) >= 0 || !is_inside_out(outlook_of(cloud, neighbours))) return NormalsFound::Good;
   for (glm::vec3& normal : cloud.normals) normal = -normal;
   return NormalsFound::InsideOut;
 }

@@ -13,7 +13,7 @@ namespace rejoin::mesh::detail {
 /// Unit normals from the neighbourhood of every point, turned to agree with their neighbours' along a spanning tree of the most
 /// parallel ones (Hoppe 1992), and every part so that its furthest points in all directions, which are on its outside whatever
 /// its shape, have outward normals.
-/// \param near  neighbours_of() the points
+/// \param near  of the points
 std::vector<glm::vec3> estimate_normals(const std::vector<glm::vec3>& points, const NeighbourLists& near);
 
 /// What check_normals() did.
@@ -25,8 +25,8 @@ enum class NormalsFound {
 
 /// Turns the normals that a cloud came with where the surface through it can be seen from its front only after that (outlook()).
 /// What is scanned from one side is kept as it is.
-/// \param near  neighbours_of() the cloud's points
+/// \param neighbours  of the cloud's points
 /// \pre unit normals
-NormalsFound check_normals(Mesh& cloud, const NeighbourLists& near);
+NormalsFound check_normals(Mesh& cloud, CloudNeighbours& neighbours);
 
 }  // namespace rejoin::mesh::detail

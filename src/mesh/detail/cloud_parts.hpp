@@ -18,7 +18,7 @@ struct CloudParts {
 
 /// Points hang together that are neighbours no farther apart than 2.5 times as far as neighbourhoods reach there, some five spacings;
 /// strays (after the local outlier factor, Breunig et al. 2000) hang together with nothing.
-/// \param near  neighbours_of() the points
+/// \param near  of the points
 CloudParts parts_of_cloud(const std::vector<glm::vec3>& points, const NeighbourLists& near);
 
 }  // namespace rejoin::mesh::detail

@@ -6,12 +6,10 @@
 
 #include "core/parallel.hpp"
 #include "core/rigid.hpp"
-#include "mesh/point_index.hpp"
 
 namespace rejoin::mesh::detail {
 namespace {
 
-constexpr std::size_t kNeighbours = 24;
 constexpr std::size_t kNearest = 7;  ///< the point itself and the six that surround it in an even cloud
 constexpr float kReach = 2.6F;  ///< largest circumscribed circle, in spacings: bridges holes of five spacings
 constexpr float kLeastAgreement = -0.35F;  ///< cosine of normals: 110 degrees, a sharp edge and some noise
@@ -74,34 +72,33 @@ class Cell {
   std::vector<CellSide> next_;
 };
 
-/// Works out stars with buffers that are used again for every point.
+/// Works out stars, point by point.
 class StarFinder {
  public:
-  StarFinder(const Mesh& cloud, const PointIndex& index, std::vector<glm::vec3>& axes,
+  StarFinder(const Mesh& cloud, const NeighbourLists& wide, std::vector<glm::vec3>& axes,
              std::vector<float>& spacings)
-      : cloud_(cloud), index_(index), axes_(axes), spacings_(spacings) {}
+      : cloud_(cloud), wide_(wide), axes_(axes), spacings_(spacings) {}
 
   /// Mean normal around a point, and the mean distance of the points next to it.
   void describe(std::uint32_t point) {
-    index_.nearest(cloud_.vertices[point], kNearest, near_);
+    const std::span<const std::uint32_t> near = wide_[point].first(std::min(kNearest, wide_.each()));
     glm::vec3 sum(0.0F);
     float distance = 0;
-    for (const std::uint32_t other : near_) {
+    for (const std::uint32_t other : near) {
       distance += glm::distance(cloud_.vertices[point], cloud_.vertices[other]);
       if (other == point || can_reach(cloud_, point, other)) sum += cloud_.normals[other];
     }
     const float length = glm::length(sum);
     axes_[point] = length > 0 ? sum / length : cloud_.normals[point];
-    spacings_[point] = distance / static_cast<float>(std::max<std::size_t>(1, near_.size() - 1));
+    spacings_[point] = distance / static_cast<float>(std::max<std::size_t>(1, near.size() - 1));
   }
 
   /// Delaunay star of a point: pairs of neighbours, counter-clockwise about its axis.
   void star(std::uint32_t point, float median_spacing, std::vector<glm::uvec3>& triangles) {
     const double reach = kReach * std::max(spacings_[point], median_spacing);
     const glm::dmat3 frame = frame_of(glm::dvec3(axes_[point]));
-    index_.nearest(cloud_.vertices[point], kNeighbours, near_);
     Cell cell(reach);
-    for (const std::uint32_t other : near_) {
+    for (const std::uint32_t other : wide_[point]) {
       if (other == point || !can_reach(cloud_, point, other)) continue;
       const glm::dvec3 step = glm::dvec3(cloud_.vertices[other]) - glm::dvec3(cloud_.vertices[point]);
       const double distance = glm::length(step);
@@ -121,10 +118,9 @@ class StarFinder {
 
  private:
   const Mesh& cloud_;
-  const PointIndex& index_;
+  const NeighbourLists& wide_;
   std::vector<glm::vec3>& axes_;
   std::vector<float>& spacings_;
-  std::vector<std::uint32_t> near_;
 };
 
 glm::uvec3 sorted(glm::uvec3 t) {
@@ -177,14 +173,13 @@ std::vector<Candidate> count_votes(const Mesh& cloud, std::vector<glm::uvec3> tr
 
 }  // namespace
 
-Neighbourhoods local_delaunay(const Mesh& cloud) {
+Neighbourhoods local_delaunay(const Mesh& cloud, const NeighbourLists& wide) {
   const std::size_t count = cloud.vertices.size();
   Neighbourhoods result;
   result.axes.resize(count);
-  const PointIndex index(cloud.vertices);
   std::vector<float> spacings(count);
   parallel_for(count, 512, [&](std::size_t first, std::size_t last) {
-    StarFinder finder(cloud, index, result.axes, spacings);
+    StarFinder finder(cloud, wide, result.axes, spacings);
     for (std::size_t i = first; i < last; ++i) finder.describe(static_cast<std::uint32_t>(i));
   });
   std::vector<float> ordered = spacings;
@@ -194,7 +189,7 @@ Neighbourhoods local_delaunay(const Mesh& cloud) {
 
   std::vector<std::vector<glm::uvec3>> stars(count);
   parallel_for(count, 512, [&](std::size_t first, std::size_t last) {
-    StarFinder finder(cloud, index, result.axes, spacings);
+    StarFinder finder(cloud, wide, result.axes, spacings);
     for (std::size_t i = first; i < last; ++i) finder.star(static_cast<std::uint32_t>(i), median, stars[i]);
   });
   std::vector<glm::uvec3> triangles;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "mesh/detail/neighbour_lists.hpp"
 #include "mesh/mesh.hpp"
 
 namespace rejoin::mesh::detail {
@@ -26,9 +27,10 @@ struct Neighbourhoods {
 /// true distance, so that a sharp edge unrolls.  Neighbours count only if a surface can lead to
 /// them: the opposite side of a thin wall does not.
 ///
+/// \param wide  of the cloud's points
 /// \pre cloud.is_cloud() with unit normals
 /// \source Gopi, Krishnan, Silva 2000, "Surface reconstruction based on lower dimensional localized
 ///   Delaunay triangulation"
-Neighbourhoods local_delaunay(const Mesh& cloud);
+Neighbourhoods local_delaunay(const Mesh& cloud, const NeighbourLists& wide);
 
 }  // namespace rejoin::mesh::detail

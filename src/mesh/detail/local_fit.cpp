@@ -6,7 +6,7 @@
 
 namespace rejoin::mesh::detail {
 
-glm::vec3 plane_normal(const std::vector<glm::vec3>& points, const std::vector<std::uint32_t>& chosen) {
+glm::vec3 plane_normal(const std::vector<glm::vec3>& points, std::span<const std::uint32_t> chosen) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const std::uint32_t i : chosen) mean += Eigen::Vector3d(points[i].x, points[i].y, points[i].z);
   mean /= static_cast<double>(chosen.size());

@@ -9,7 +9,7 @@
 namespace rejoin::mesh::detail {
 
 /// Unit direction of least spread of the chosen points, either way round.
-glm::vec3 plane_normal(const std::vector<glm::vec3>& points, const std::vector<std::uint32_t>& chosen);
+glm::vec3 plane_normal(const std::vector<glm::vec3>& points, std::span<const std::uint32_t> chosen);
 
 /// Root mean square distance along z of points from the quadric over x and y that fits them best.  The six numbers that it has
 /// are taken off the count of points.

@@ -21,7 +21,7 @@ Specks drop_specks(Mesh& mesh);
 
 /// Drops the points of a cloud that belong to no surface: strays (cloud_parts.hpp), and small groups far from the rest as
 /// drop_specks() does (less than 1 % of the points).
-/// \param near  neighbours_of() the cloud's points
+/// \param near  of the cloud's points
 /// \return how many
 std::size_t drop_stray_points(Mesh& cloud, const NeighbourLists& near);
 
