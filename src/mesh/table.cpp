@@ -117,7 +117,7 @@ class PlaneSearch {
 
   /// Planes through three points at a time (RANSAC), the one with most of the surface, fitted to it.
   std::optional<Table> search(double diagonal) const {
-    constexpr int kDraws = 4000;  // 30 of them lie in a plane that has a fifth
+    constexpr int kDraws = 2000;  // 16 of them lie in a plane that has a fifth
     Random random(2);
     std::optional<Table> best;
     for (int draw = 0; draw < kDraws; ++draw) {

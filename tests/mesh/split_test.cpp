@@ -150,6 +150,22 @@ TEST(Split, ClosedPiecesThatNoPlanePartsAreTwoAndACavityIsOfItsPiece) {
   EXPECT_EQ(mesh::split("scan", together(together(ring, ball), cavity)).pieces.size(), 2U);
 }
 
+// The upper patch hangs together with nothing, as above a steep side that was not seen.
+TEST(Split, OnATableWhatLiesAboveEachOtherIsOnePieceAndWhatLiesBesideIsNot) {
+  const Mesh lumps = test::relief(
+      [](float x, float y) {
+        return std::max({0.0F, 20.0F - std::hypot(x + 40, y), 20.0F - std::hypot(x - 40, y)});
+      },
+      200);
+  Mesh patch = test::relief([](float x, float y) { return 30.0F - 0.01F * (x * x + y * y); }, 20);
+  for (glm::vec3& v : patch.vertices) v = glm::vec3(0.15F * v.x - 40.0F, 0.15F * v.y, v.z + 60.0F);
+  const Split split = mesh::split("scan", together(lumps, patch));
+  ASSERT_TRUE(split.table);
+  ASSERT_EQ(split.pieces.size(), 2U);
+  EXPECT_GT(bounds(split.pieces[0]).high.z, 80.0F);
+  EXPECT_LT(bounds(split.pieces[1]).high.z, 21.0F);
+}
+
 TEST(Split, OnePieceWithoutATableIsGivenBackAsItIs) {
   for (const Mesh& piece : {test::box({40, 30, 20}, 8), test::icosphere(20, 3)}) {
     const Split split = mesh::split("scan", piece);
