@@ -171,6 +171,13 @@ class SplitCommand final : public Command {
       result_.push_back({{"path", path}, {"error", error.what()}});
       return false;
     }
+    for (const std::size_t k : split.touching) {
+      scan.warnings.push_back(
+          fmt::format("{}: {} may be pieces that touch: it falls apart {:.3g} above the table (look at "
+                      "--png; scan them apart, or "
+                      "raise --cut)",
+                      path, file_name(path, k + 1), mesh::kHigherCut * split.cut));
+    }
     for (const std::string& warning : scan.warnings) console.warning(warning);
     for (std::size_t k = 0; k < split.pieces.size(); ++k)
       mesh::save(fs::path(out_) / file_name(path, k + 1), split.pieces[k]);

@@ -27,6 +27,7 @@ constexpr double kTableOfPart = 0.01;  // of a part is table: it hangs together 
 constexpr double kLow = 2.0;           // cuts above the table that a piece rises at least
 constexpr double kNear = 5.0;          // spacings, from a piece to what still belongs to it
 constexpr double kOverlap = 0.1;       // of the smaller part's cells on the table: it lies above the other
+constexpr double kOfTwo = 0.1;         // of a piece's weight: a part of it that may be another piece
 constexpr std::size_t kMostParts = 1000;
 
 using Members = std::vector<std::uint32_t>;  // faces, or points, in ascending order
@@ -39,6 +40,12 @@ Mesh chosen(const Mesh& scan, const Members& members) {
 std::vector<detail::Part> measured(const Mesh& scan, const std::vector<std::uint32_t>& part_of) {
   return scan.is_cloud() ? detail::measured_point_parts(scan, part_of)
                          : detail::measured_parts(scan, part_of);
+}
+
+/// Of every face, or point, the number of its part.
+std::vector<std::uint32_t> parts_of(const Mesh& scan) {
+  if (!scan.is_cloud()) return detail::part_of_faces(scan);
+  return detail::parts_of_cloud(scan.vertices, detail::CloudNeighbours(scan.vertices).near()).part_of_point;
 }
 
 double weight_of(const Mesh& scan) {
@@ -71,26 +78,35 @@ std::vector<bool> parts_with_table(const Mesh& mesh, const Table& table,
   return result;
 }
 
-/// Faces, or points, that lie above the cut, and those of parts that merely lie on the table.
-Members above_table(const Mesh& scan, const Table& table, double cut) {
+/// Faces, or points, that lie above the cut.
+Members above(const Mesh& scan, const Table& table, double cut) {
   Members kept;
   const auto is_above = [&](std::uint32_t vertex) {
     return height_above(table, scan.vertices[vertex]) > cut;
   };
-  if (scan.is_cloud()) {
-    for (std::uint32_t i = 0; i < scan.vertices.size(); ++i) {
-      if (is_above(i)) kept.push_back(i);
-    }
-    return kept;
+  for (std::uint32_t i = 0; scan.is_cloud() && i < scan.vertices.size(); ++i) {
+    if (is_above(i)) kept.push_back(i);
   }
-  const std::vector<std::uint32_t> part_of_face = detail::part_of_faces(scan);
-  const std::vector<bool> with_table = parts_with_table(scan, table, part_of_face);
   for (std::uint32_t f = 0; f < scan.faces.size(); ++f) {
     const glm::uvec3& face = scan.faces[f];
-    if (!with_table[part_of_face[f]] || (is_above(face.x) && is_above(face.y) && is_above(face.z)))
-      kept.push_back(f);
+    if (is_above(face.x) && is_above(face.y) && is_above(face.z)) kept.push_back(f);
   }
   return kept;
+}
+
+/// The same, and the faces of parts that merely lie on the table.
+Members above_table(const Mesh& scan, const Table& table, double cut) {
+  Members kept = above(scan, table, cut);
+  if (scan.is_cloud()) return kept;
+  const std::vector<std::uint32_t> part_of_face = detail::part_of_faces(scan);
+  const std::vector<bool> with_table = parts_with_table(scan, table, part_of_face);
+  Members whole;
+  for (std::uint32_t f = 0; f < scan.faces.size(); ++f) {
+    if (!with_table[part_of_face[f]]) whole.push_back(f);
+  }
+  Members both;
+  std::ranges::set_union(kept, whole, std::back_inserter(both));
+  return both;
 }
 
 /// Places on the table, as wide as a few spacings, that a part lies above.
@@ -174,11 +190,7 @@ class Rest {
  public:
   Rest(const std::string& name, Mesh scan, double spacing)
       : name_(name), scan_(std::move(scan)), spacing_(spacing) {
-    const std::vector<std::uint32_t> part_of =
-        scan_.is_cloud()
-            ? detail::parts_of_cloud(scan_.vertices, detail::CloudNeighbours(scan_.vertices).near())
-                  .part_of_point
-            : detail::part_of_faces(scan_);
+    const std::vector<std::uint32_t> part_of = parts_of(scan_);
     parts_ = measured(scan_, part_of);
     members_ = detail::members_of_parts(part_of, parts_.size());
   }
@@ -286,6 +298,19 @@ class Rest {
   std::vector<Members> members_;  ///< none: the part is left out
 };
 
+std::size_t large_parts(const Mesh& scan, double whole) {
+  const auto is_large = [whole](const detail::Part& part) { return part.weight >= kOfTwo * whole; };
+  return static_cast<std::size_t>(std::ranges::count_if(measured(scan, parts_of(scan)), is_large));
+}
+
+/// Whether a piece falls into more parts where it is cut higher.
+bool falls_apart(const Mesh& piece, const Table& table, double cut) {
+  const Members members = above(piece, table, cut);
+  if (members.empty()) return false;
+  const double whole = weight_of(piece);
+  return large_parts(chosen(piece, members), whole) > large_parts(piece, whole);
+}
+
 std::optional<Table> table_of(const std::string& name, const Mesh& scan, SplitOptions::TableUse use) {
   if (use == SplitOptions::TableUse::No) return std::nullopt;
   const bool must = use == SplitOptions::TableUse::Yes;
@@ -318,6 +343,9 @@ Split split(const std::string& name, const Mesh& scan, const SplitOptions& optio
   result.table_share = 1.0 - rest.weight() / whole;
   if (!(rest.weight() > 0)) throw InputError(name, nothing, "give a smaller --cut");
   rest.part_into(result, options.least, whole);
+  for (std::size_t k = 0; k < result.pieces.size(); ++k) {
+    if (falls_apart(result.pieces[k], *result.table, kHigherCut * result.cut)) result.touching.push_back(k);
+  }
   return result;
 }
 

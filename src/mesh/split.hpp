@@ -11,6 +11,8 @@
 
 namespace rejoin::mesh {
 
+inline constexpr double kHigherCut = 3.0;  ///< cuts above the table, where pieces that touch may be apart
+
 struct SplitOptions {
   enum class TableUse {
     Auto,  ///< what find_table() takes for one is cut off, however little stands on it
@@ -37,6 +39,7 @@ struct Split {
   double cut = 0;              ///< height above its plane
   double table_share = 0;      ///< of the area, or of the points, that went with it
   Crumbs crumbs;
+  std::vector<std::size_t> touching;  ///< pieces that fall apart where they are cut kHigherCut times as high
 };
 
 /// Cuts the table off and parts what is left: faces that share vertices are one piece, and points that lie no farther apart than five

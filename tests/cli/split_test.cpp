@@ -87,6 +87,17 @@ TEST_F(SplitCommand, OnePieceWithoutATableIsToldAndWritten) {
   EXPECT_EQ(written.faces, whole.faces);
 }
 
+TEST_F(SplitCommand, PiecesThatTouchAreToldByName) {
+  mesh::save(folder / "two.ply", scene::relief([](float x, float y) {
+               const float bridge = std::abs(x) < 15 && std::abs(y) < 15 ? 4.0F : 0.0F;
+               return std::max({bridge, 30.0F - std::hypot(x + 38, y), 30.0F - std::hypot(x - 38, y)});
+             }));
+  const Finished finished = run({"split", folder / "two.ply", "--out", out, "--json", folder / "s.json"});
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_NE(finished.err.find("two_1.ply may be pieces that touch"), std::string::npos) << finished.err;
+  EXPECT_EQ(json::parse(read_file(folder / "s.json"))["scans"][0]["warnings"].size(), 1U);
+}
+
 TEST_F(SplitCommand, CloudsArePartedAndDrawnWithoutNormals) {
   mesh::Mesh cloud =
       scene::together(scene::sphere_cloud(20, 1, 1), scene::moved(scene::sphere_cloud(15, 1, 2), {50, 0, 0}));

@@ -64,6 +64,7 @@ TEST(Split, ThinSherdsFlatOnATableComeOutWholeButForTheCut) {
     EXPECT_EQ(places(split.pieces[k]), places(scan, of_disc)) << k;
   }
   EXPECT_EQ(split.crumbs.parts, 0U);
+  EXPECT_TRUE(split.touching.empty());
 }
 
 TEST(Split, AnUnevenTableIsTakenThicker) {
@@ -102,12 +103,15 @@ TEST(Split, TouchingPiecesAreOneUntilTheCutIsAboveTheirBridge) {
         return std::max({0.0F, lump, bridge});
       },
       200);
-  EXPECT_EQ(mesh::split("scan", scan).pieces.size(), 1U);
+  const Split joined = mesh::split("scan", scan);
+  EXPECT_EQ(joined.pieces.size(), 1U);
+  EXPECT_EQ(joined.touching, std::vector<std::size_t>{0});
   SplitOptions above;
   above.cut = 4.0;
   const Split split = mesh::split("scan", scan, above);
   EXPECT_EQ(split.pieces.size(), 2U);
   EXPECT_EQ(split.cut, 4.0);
+  EXPECT_TRUE(split.touching.empty());
 }
 
 TEST(Split, WholePiecesStayWholeWithAndWithoutATableThatHangsTogetherWithNone) {
