@@ -38,6 +38,7 @@ ordered_json truth_json(const std::string& solid, const shatter::Options& option
           {"unit", "as in the file"},
           {"diameter", shattered.diameter},
           {"seed", options.seed},
+          {"cracks", options.cracks},
           {"roughness", options.roughness},
           {"erode", options.erosion * shattered.diameter},
           {"chips", options.chips},
@@ -61,6 +62,7 @@ class ShatterCommand final : public Command {
     app.option_defaults()->group("Break (lengths in percent of the diameter)");
     add_number(app, "--pieces", options_.pieces, {2, 10000}, "how many fragments, 2 to 10000 (8)");
     add_seed(app, options_.seed, "another seed, another break (1)");
+    app.add_flag("--cracks", options_.cracks, "bent cracks, one after another, that end at older ones");
     add_number(app, "--roughness", options_.roughness, {0, 4},
                "of the breaks: 0 plane, 1 stone, up to 4 (1)");
     add_number(app, "--erosion", erosion_, {0, 5}, "radius of worn edges, 0 to 5 (0.1)");

@@ -6,12 +6,14 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 
 #include "core/components.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/random.hpp"
 #include "mesh/ray_scene.hpp"
+#include "shatter/cracks.hpp"
 #include "shatter/sites.hpp"
 #include "shatter/surface_nets.hpp"
 
@@ -19,6 +21,7 @@ namespace rejoin::shatter {
 namespace {
 
 constexpr std::size_t kSamples = 20000;
+constexpr double kTriesInside = 4e6;
 constexpr double kWarpWave = 0.3;         // coarsest bend of a break, share of the diameter
 constexpr double kWarpAmplitude = 0.025;  // at roughness 1
 constexpr double kFar = 8.0;              // spacings
@@ -58,7 +61,7 @@ mesh::RayScene make_scene(const mesh::Mesh& object) {
   return mesh::RayScene(object);
 }
 
-/// The object, its cells and what was worn off.
+/// The object, how it is divided and what was worn off.
 class Breaker {
  public:
   Breaker(const std::string& name, const mesh::Mesh& object, const Options& options)
@@ -66,9 +69,8 @@ class Breaker {
     const Noise warp{options.seed, kWarpWave * diameter_, options.roughness * kWarpAmplitude * diameter_,
                      1.5 * spacing()};
     const mesh::Samples samples = mesh::sample_surface(object, kSamples);
-    cells_ =
-        choose_cells(samples, object.origin, static_cast<std::size_t>(options.pieces), warp, options.seed);
-    if (cells_.sites.empty())
+    division_ = options.cracks ? cracks(samples, warp) : cells(samples, warp);
+    if (!division_)
       throw InputError(name, fmt::format("no cut into {} pieces was found", options.pieces),
                        "ask for fewer pieces");
     wear_ = {options.seed + 77, 0.05 * diameter_, 0.5, 0.01 * diameter_};
@@ -80,7 +82,7 @@ class Breaker {
 
   /// Below 0 inside piece k.
   double field(const glm::dvec3& point, std::size_t k) const {
-    const Cells::Walls walls = cells_.walls(point, k);
+    const Walls walls = division_->walls(point, k);
     if (walls.nearest > kFar * spacing()) return walls.nearest;  // the object's surface makes no difference
     const double surface = signed_distance(point);
     double result = rounded(surface, walls, worn_radius(point));
@@ -97,7 +99,7 @@ class Breaker {
 
   /// The piece behind a point of piece k's surface if it lies on a break, else -1.
   int behind(const glm::dvec3& point, std::size_t k) const {
-    const Cells::Walls walls = cells_.walls(point, k);
+    const Walls walls = division_->walls(point, k);
     return std::abs(walls.nearest) < std::abs(signed_distance(point)) ? walls.behind : -1;
   }
 
@@ -107,6 +109,33 @@ class Breaker {
   }
 
  private:
+  std::unique_ptr<const Division> cells(const mesh::Samples& samples, const Noise& warp) const {
+    auto cells =
+        choose_cells(samples, object_.origin, static_cast<std::size_t>(options_.pieces), warp, options_.seed);
+    return cells ? std::make_unique<const Cells>(std::move(*cells)) : nullptr;
+  }
+
+  std::unique_ptr<const Division> cracks(const mesh::Samples& samples, const Noise& warp) const {
+    auto cracks = choose_cracks(inside(), samples, object_.origin, static_cast<std::size_t>(options_.pieces),
+                                warp, options_.seed);
+    return cracks ? std::make_unique<const Cracks>(std::move(*cracks)) : nullptr;
+  }
+
+  Inside inside() const {
+    const mesh::Box box = mesh::bounds(object_);
+    const glm::dvec3 size(box.high - box.low);
+    Random random(options_.seed, 13);
+    Inside inside;
+    double tries = 0.0;
+    for (; tries < kTriesInside && inside.points.size() < kSamples; ++tries) {
+      const glm::vec3 point =
+          box.low + glm::vec3(size * glm::dvec3(random.uniform(), random.uniform(), random.uniform()));
+      if (is_inside(point)) inside.points.push_back(point);
+    }
+    inside.spacing = std::cbrt(size.x * size.y * size.z / tries);
+    return inside;
+  }
+
   double signed_distance(const glm::dvec3& point) const {
     const glm::vec3 at(point - object_.origin);
     auto hit = scene_.nearest(at, static_cast<float>(6.0 * spacing()));  // short searches are quick
@@ -149,7 +178,7 @@ class Breaker {
   }
 
   /// The three surfaces' common inside with edges and corners rounded to a radius.
-  static double rounded(double surface, const Cells::Walls& walls, double radius) {
+  static double rounded(double surface, const Walls& walls, double radius) {
     const double sharp = std::max(surface, walls.nearest);
     if (!(radius > 0.0)) return sharp;
     double squares = 0.0;
@@ -162,14 +191,14 @@ class Breaker {
 
   /// Chips come off where a break meets the object's surface.
   void choose_chips(const mesh::Samples& samples) {
-    std::vector<std::vector<glm::dvec3>> rims(cells_.sites.size());
+    std::vector<std::vector<glm::dvec3>> rims(division_->pieces());
     for (const glm::vec3& sample : samples.points) {
       const glm::dvec3 point = object_.origin + glm::dvec3(sample);
-      const std::size_t cell = cells_.cell_of(cells_.bent(point));
-      if (cells_.walls(point, cell).nearest > -2.0 * samples.spacing) rims[cell].push_back(point);
+      const std::size_t cell = division_->piece_of(point);
+      if (division_->walls(point, cell).nearest > -2.0 * samples.spacing) rims[cell].push_back(point);
     }
     Random random(options_.seed, 12);
-    chips_.resize(cells_.sites.size());
+    chips_.resize(division_->pieces());
     for (std::size_t k = 0; k < rims.size(); ++k) {
       const auto count = static_cast<int>(std::floor(random.uniform(0.0, 2.0 * options_.chips) + 0.5));
       for (int c = 0; c < count && !rims[k].empty(); ++c) {
@@ -183,7 +212,7 @@ class Breaker {
   const Options& options_;
   mesh::RayScene scene_;
   double diameter_;
-  Cells cells_;
+  std::unique_ptr<const Division> division_;
   Noise wear_;
   std::vector<std::vector<Chip>> chips_;  ///< one list a piece
 };

@@ -15,6 +15,7 @@ namespace rejoin::shatter {
 struct Options {
   int pieces = 8;
   std::uint64_t seed = 1;
+  bool cracks = false;       ///< one after another, else all at once around sites
   double roughness = 1.0;    ///< of the breaks; 0: plane, 1: like broken stone
   double erosion = 0.001;    ///< radius to which edges are worn
   double chips = 3.0;        ///< mean number of chips off a fragment's edges

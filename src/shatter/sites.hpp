@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "mesh/samples.hpp"
 #include "shatter/cells.hpp"
@@ -13,8 +14,8 @@ namespace rejoin::shatter {
 /// \param samples  of the surface; at least count
 /// \param origin   of the samples
 /// \param warp     the cells' noise
-/// \return no sites if no draw gives every cell some surface
-Cells choose_cells(const mesh::Samples& samples, const glm::dvec3& origin, std::size_t count,
-                   const Noise& warp, std::uint64_t seed);
+/// \return nullopt if no draw gives every cell some surface
+std::optional<Cells> choose_cells(const mesh::Samples& samples, const glm::dvec3& origin, std::size_t count,
+                                  const Noise& warp, std::uint64_t seed);
 
 }  // namespace rejoin::shatter
