@@ -74,6 +74,11 @@ Whole survey(const std::vector<fs::path>& runs) {
                          fmt::format("knows another content of {} than the runs before it", fragment.name),
                          "run the shards again that have the older file");
       }
+      if (known.pose != fragment.pose) {
+        throw StoreError(folder.string(),
+                         fmt::format("has {} elsewhere in the layout than the runs before it", fragment.name),
+                         "run its shard again with the --layout of the others");
+      }
       if (told_by(fragment.state) > told_by(known.state)) known = fragment;
     }
   }

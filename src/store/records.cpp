@@ -30,6 +30,8 @@ std::string reason_of_copy(const std::string& first) {
 
 const char* name_of(Stage stage) {
   switch (stage) {
+    case Stage::Apart:
+      return "apart";
     case Stage::Sweep:
       return "sweep";
     case Stage::Match:

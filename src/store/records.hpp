@@ -34,6 +34,8 @@ struct Fragment {
   std::string name;     ///< the file's name in its folder, unique in the run
   std::string path;     ///< where it was read, absolute
   std::string hash;     ///< of the file's content, hexadecimal
+  std::string
+      pose;  ///< where the user laid it by hand, as text that is the same for the same pose; empty: nowhere
   std::int64_t faces = 0;
   double diameter =
       0;  ///< mesh units, as the next three; these are 0 where not known (a run of an earlier build), or none
@@ -59,12 +61,13 @@ std::string reason_of_copy(const std::string& first);
 
 /// How far a pair was taken.
 enum class Stage {
+  Apart,   ///< not searched: the user laid both too far apart to touch
   Sweep,   ///< the sweep and the first alignments found too little for more
   Match,   ///< searched in full
   Failed,  ///< `error` says why; not tried again while the inputs stay
 };
 
-/// As tables and JSON have it: "sweep", "match", "failed".
+/// As tables and JSON have it: "apart", "sweep", "match", "failed".
 const char* name_of(Stage stage);
 
 struct Pair {

@@ -45,11 +45,12 @@ void write_parameters(SQLite::Database& database, const Parameters& parameters, 
 void add_fragment(SQLite::Database& database, const Fragment& fragment) {
   SQLite::Statement row(
       database,
-      "INSERT INTO fragment (name, path, hash, faces, diameter, state, error, spacing, noise, wall) "
-      "VALUES (?, ?, ?, 0, 0, 'waiting', '', 0, 0, 0)");
+      "INSERT INTO fragment (name, path, hash, faces, diameter, state, error, spacing, noise, wall, pose) "
+      "VALUES (?, ?, ?, 0, 0, 'waiting', '', 0, 0, 0, ?)");
   row.bind(1, fragment.name);
   row.bind(2, fragment.path);
   row.bind(3, fragment.hash);
+  row.bind(4, fragment.pose);
   row.exec();
 }
 
@@ -105,6 +106,49 @@ void require_some_known(SQLite::Database& database, const std::map<std::string, 
                                  known.size() - 1),
                      "give another --out, or remove this file if all scans were made anew");
   }
+}
+
+/// A fragment's place in the user's layout, earlier and now.
+struct Places {
+  std::string earlier;
+  std::string now;
+};
+
+/// Whether the two were beside each other in another way than now; fragments without a place are beside none.
+bool are_laid_otherwise(const Places& a, const Places& b) {
+  const bool earlier = !a.earlier.empty() && !b.earlier.empty();
+  const bool now = !a.now.empty() && !b.now.empty();
+  if (!earlier || !now) return earlier != now;
+  return a.earlier != a.now || b.earlier != b.now;
+}
+
+/// Takes over the poses that are wanted, and removes the pairs that were looked for by others.
+/// \return how many
+std::size_t forget_laid_otherwise(SQLite::Database& database, const std::map<std::string, Fragment>& wanted) {
+  std::map<std::int64_t, Places> places;
+  bool any = false;
+  for (const Fragment& known : detail::all_fragments(database)) {
+    const auto same = wanted.find(known.name);
+    if (same == wanted.end()) continue;
+    places[known.id] = {known.pose, same->second.pose};
+    if (known.pose == same->second.pose) continue;
+    any = true;
+    run_with(database, "UPDATE fragment SET pose = ? WHERE id = ?", same->second.pose, known.id);
+  }
+  std::vector<std::pair<std::int64_t, std::int64_t>> others;
+  SQLite::Statement pairs(database, "SELECT a, b FROM pair");
+  while (any && pairs.executeStep()) {
+    const std::pair pair(pairs.getColumn(0).getInt64(), pairs.getColumn(1).getInt64());
+    if (are_laid_otherwise(places[pair.first], places[pair.second])) others.push_back(pair);
+  }
+  SQLite::Statement remove(database, "DELETE FROM pair WHERE a = ? AND b = ?");
+  for (const auto& [a, b] : others) {
+    remove.reset();
+    remove.bind(1, a);
+    remove.bind(2, b);
+    remove.exec();
+  }
+  return others.size();
 }
 
 /// Removes what is no longer wanted, and takes what stays off `wanted`.
@@ -164,10 +208,11 @@ Run Run::write(const fs::path& folder) {
     access->database.emplace(access->path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
                              detail::kPatience_ms);
     SQLite::Database& database = *access->database;
-    database.exec("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON");
+    database.exec("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA foreign_keys = OFF");
     detail::make_tables(database);
     detail::require_schema(database, access->path);
     detail::bring_up_to_date(database);
+    database.exec("PRAGMA foreign_keys = ON");
   });
   return Run(std::move(access));
 }
@@ -249,7 +294,9 @@ Run::Forgotten Run::begin(const Parameters& parameters, const std::vector<Fragme
       database.exec("DELETE FROM pair");
     }
     write_parameters(database, parameters, shard);
+    const std::map<std::string, Fragment> all = wanted;
     forgotten.fragments = forget_changed(database, wanted);
+    forgotten.laid_pairs = forget_laid_otherwise(database, all);
     for (const auto& [name, fragment] : wanted) add_fragment(database, fragment);
     detail::remove_pairs_of_copies(database);
     transaction.commit();

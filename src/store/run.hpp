@@ -67,11 +67,13 @@ class Run {
   struct Forgotten {
     bool parameters = false;             ///< all pairs, because they were made with other parameters
     std::vector<std::string> fragments;  ///< names of those that changed or are gone, with their pairs
+    std::size_t laid_pairs = 0;  ///< pairs of other fragments that the user laid otherwise than before
   };
 
   /// Makes the database one of these parameters and fragments: results that do not belong to them are removed, those that do
   /// stay.  A fragment is the same if its name and hash are; its path is brought up to date.  Pairs of copies() do not belong.
-  /// \param fragments  name, path and hash are used
+  /// Where poses changed, the pairs go whose fragments both have one, or had.
+  /// \param fragments  name, path, hash and pose are used
   /// \param shard      as shard() tells it
   /// \throws StoreError also if the database has pairs of another shard, or of other scans or contents altogether, for they
   ///         would be lost

@@ -24,7 +24,8 @@ class Merge : public ::testing::Test {
 
   /// A shard that knows these fragments and has done the pair of the first two, with two candidates.
   fs::path shard(const std::string& name, const std::vector<std::string>& fragments, double score,
-                 const Parameters& parameters = kParameters, const std::string& hash = "1") const {
+                 const Parameters& parameters = kParameters, const std::string& hash = "1",
+                 const std::string& pose = "") const {
     fs::create_directories(folder_ / name);
     store::Run run = store::Run::write(folder_ / name);
     std::vector<Fragment> list(fragments.size());
@@ -32,6 +33,7 @@ class Merge : public ::testing::Test {
       list[k].name = fragments[k];
       list[k].path = "scans/" + fragments[k];
       list[k].hash = hash + fragments[k];
+      list[k].pose = pose;
     }
     run.begin(parameters, list, name);
     std::vector<Fragment> known = run.fragments();
@@ -158,6 +160,7 @@ TEST_F(Merge, OtherParametersOrContentsAreRefusedAndNothingIsWritten) {
   const fs::path x = shard("x", {"a", "b"}, 0.5);
   EXPECT_THROW(merge({x, shard("y", {"a", "c"}, 0.5, other)}, output()), StoreError);
   EXPECT_THROW(merge({x, shard("z", {"a", "c"}, 0.5, kParameters, "2")}, output()), StoreError);
+  EXPECT_THROW(merge({x, shard("w", {"a", "c"}, 0.5, kParameters, "1", "laid")}, output()), StoreError);
   EXPECT_THROW(merge({x, folder_ / "nowhere"}, output()), StoreError);
   EXPECT_FALSE(fs::exists(output()));
 }

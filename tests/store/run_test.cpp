@@ -323,7 +323,8 @@ TEST_F(RunTest, EarlierSchemaIsReadAndBroughtUpToDateWhenWritten) {
     SQLite::Database(folder_ / kFileName, SQLite::OPEN_READWRITE)
         .exec(
             "ALTER TABLE fragment DROP COLUMN spacing; ALTER TABLE fragment DROP COLUMN noise; "
-            "ALTER TABLE fragment DROP COLUMN wall; PRAGMA user_version = 1");
+            "ALTER TABLE fragment DROP COLUMN wall; ALTER TABLE fragment DROP COLUMN pose; "
+            "PRAGMA user_version = 1");
   };
   as_written_earlier();
   EXPECT_EQ(store::Run::open(folder_).fragments().at(0).wall, 0);
@@ -337,6 +338,65 @@ TEST_F(RunTest, EarlierSchemaIsReadAndBroughtUpToDateWhenWritten) {
   run.save(measured);
   EXPECT_EQ(run.pairs().size(), 1U);
   EXPECT_EQ(store::Run::open(folder_).fragments().at(0), measured);
+}
+
+TEST_F(RunTest, PairsOfAnEarlierSchemaStayWithTheirPosesAndNewOnesMayBeApart) {
+  make_run();
+  {
+    SQLite::Database database(folder_ / kFileName, SQLite::OPEN_READWRITE);
+    std::string pairs = database.execAndGet("SELECT sql FROM sqlite_master WHERE name = 'pair'").getString();
+    const std::size_t apart = pairs.find("'apart', ");
+    ASSERT_NE(apart, std::string::npos) << pairs;
+    database.exec("PRAGMA writable_schema = ON");
+    SQLite::Statement change(database, "UPDATE sqlite_master SET sql = ? WHERE name = 'pair'");
+    change.bind(1, pairs.erase(apart, std::string("'apart', ").size()));
+    change.exec();
+    database.exec("ALTER TABLE fragment DROP COLUMN pose; PRAGMA user_version = 2");
+  }
+  EXPECT_EQ(store::Run::open(folder_).fragments().at(0).pose, "");
+  {
+    store::Run run = store::Run::write(folder_);
+    ASSERT_EQ(run.pairs().size(), 1U);
+    EXPECT_EQ(run.candidates(run.pairs()[0]).size(), 1U);
+    Pair apart = pair_of(run.fragments(), 1, 2);
+    apart.stage = Stage::Apart;
+    run.save(apart, {});
+    run.begin(kParameters, {three_[0], three_[1]});
+  }
+  SQLite::Database database(folder_ / kFileName, SQLite::OPEN_READONLY);
+  EXPECT_EQ(database.execAndGet("PRAGMA integrity_check").getString(), "ok");
+  EXPECT_EQ(database.execAndGet("SELECT count(*) FROM pragma_foreign_key_check").getInt(), 0);
+  EXPECT_EQ(database.execAndGet("SELECT count(*) FROM ranked").getInt(), 1) << "gone with its fragment";
+  EXPECT_EQ(database.execAndGet("SELECT count(*) FROM candidate").getInt(), 1);
+}
+
+TEST_F(RunTest, PairsGoThatAreLaidOtherwiseAndNoOthers) {
+  const auto laid = [this](const std::string& a, const std::string& b, const std::string& c) {
+    std::vector<Fragment> list = three_;
+    list[1].pose = a;
+    list[0].pose = b;
+    list[2].pose = c;
+    return list;
+  };
+  store::Run run = store::Run::write(folder_);
+  const auto forgotten = [&](const std::vector<Fragment>& list) {
+    const auto result = run.begin(kParameters, list);
+    EXPECT_TRUE(result.fragments.empty());
+    EXPECT_FALSE(result.parameters);
+    for (const auto& [a, b] : {std::pair(0, 1), std::pair(0, 2), std::pair(1, 2)}) {
+      const auto known = run.fragments();
+      run.save(pair_of(known, static_cast<std::size_t>(a), static_cast<std::size_t>(b)), {candidate_});
+    }
+    return result.laid_pairs;
+  };
+  EXPECT_EQ(forgotten(three_), 0U);
+  EXPECT_EQ(forgotten(laid("A", "", "")), 0U) << "beside nothing";
+  EXPECT_EQ(forgotten(laid("A", "B", "")), 1U);
+  EXPECT_EQ(forgotten(laid("A", "B", "")), 0U);
+  EXPECT_EQ(run.fragments()[1].pose, "B");
+  EXPECT_EQ(forgotten(laid("A", "B", "C")), 2U);
+  EXPECT_EQ(forgotten(laid("A", "B", "D")), 2U);
+  EXPECT_EQ(forgotten(laid("E", "", "D")), 3U) << "one otherwise, two no longer";
 }
 
 TEST_F(RunTest, DamagedDatabaseIsAnErrorNotACrash) {

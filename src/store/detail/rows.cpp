@@ -62,6 +62,7 @@ FragmentState fragment_state(const std::string& name) {
 }
 
 Stage stage(const std::string& name) {
+  if (name == "apart") return Stage::Apart;
   if (name == "sweep") return Stage::Sweep;
   return name == "match" ? Stage::Match : Stage::Failed;
 }
@@ -86,14 +87,16 @@ Fragment fragment_from(SQLite::Statement& row) {
   fragment.spacing = row.getColumn(8).getDouble();
   fragment.noise = row.getColumn(9).getDouble();
   fragment.wall = row.getColumn(10).getDouble();
+  fragment.pose = row.getColumn(11).getString();
   return fragment;
 }
 
 std::vector<Fragment> all_fragments(SQLite::Database& database) {
   SQLite::Statement rows(database,
-                         fmt::format("SELECT id, name, path, hash, faces, diameter, state, error, {} "
+                         fmt::format("SELECT id, name, path, hash, faces, diameter, state, error, {}, {} "
                                      "FROM fragment ORDER BY name",
-                                     has_lengths(database) ? "spacing, noise, wall" : "0, 0, 0"));
+                                     has_lengths(database) ? "spacing, noise, wall" : "0, 0, 0",
+                                     has_poses(database) ? "pose" : "''"));
   std::vector<Fragment> list;
   while (rows.executeStep()) list.push_back(fragment_from(rows));
   return list;

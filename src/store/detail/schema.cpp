@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kApplication = 0x726a6e31;  // "rjn1": `file` and others can tell what the database is
 
-constexpr const char* kTables = R"sql(
+constexpr const char* kRunAndFragments = R"sql(
 CREATE TABLE run (
   id INTEGER PRIMARY KEY CHECK (id = 1),
   version TEXT NOT NULL,
@@ -32,12 +32,18 @@ CREATE TABLE fragment (
   error TEXT NOT NULL,
   spacing REAL NOT NULL DEFAULT 0,
   noise REAL NOT NULL DEFAULT 0,
-  wall REAL NOT NULL DEFAULT 0
+  wall REAL NOT NULL DEFAULT 0,
+  pose TEXT NOT NULL DEFAULT ''
 );
-CREATE TABLE pair (
+INSERT INTO run VALUES (1, '', '{}', 1, '');
+)sql";
+
+/// A table of this name.
+constexpr const char* kPairs = R"sql(
+CREATE TABLE {} (
   a INTEGER NOT NULL REFERENCES fragment ON DELETE CASCADE,
   b INTEGER NOT NULL REFERENCES fragment ON DELETE CASCADE,
-  stage TEXT NOT NULL CHECK (stage IN ('sweep', 'match', 'failed')),
+  stage TEXT NOT NULL CHECK (stage IN ('apart', 'sweep', 'match', 'failed')),
   evidence REAL NOT NULL,
   score REAL NOT NULL,
   verdict TEXT NOT NULL,
@@ -46,7 +52,9 @@ CREATE TABLE pair (
   result TEXT NOT NULL,
   PRIMARY KEY (a, b)
 ) WITHOUT ROWID;
-CREATE INDEX pair_of_b ON pair (b);
+)sql";
+
+constexpr const char* kCandidates = R"sql(
 CREATE TABLE candidate (
   a INTEGER NOT NULL,
   b INTEGER NOT NULL,
@@ -62,11 +70,14 @@ CREATE TABLE candidate (
   PRIMARY KEY (a, b, rank),
   FOREIGN KEY (a, b) REFERENCES pair ON DELETE CASCADE
 ) WITHOUT ROWID;
+)sql";
+
+constexpr const char* kLooksAtPairs = R"sql(
+CREATE INDEX pair_of_b ON pair (b);
 CREATE VIEW ranked AS
   SELECT x.name AS a, y.name AS b, p.score, p.verdict, p.stage, p.evidence, p.seconds, p.error
   FROM pair p JOIN fragment x ON x.id = p.a JOIN fragment y ON y.id = p.b
   ORDER BY p.score DESC, x.name, y.name;
-INSERT INTO run VALUES (1, '', '{}', 1, '');
 )sql";
 
 int pragma(SQLite::Database& database, const char* name) {
@@ -78,8 +89,16 @@ constexpr const char* kAddLengths = R"sql(
 ALTER TABLE fragment ADD COLUMN spacing REAL NOT NULL DEFAULT 0;
 ALTER TABLE fragment ADD COLUMN noise REAL NOT NULL DEFAULT 0;
 ALTER TABLE fragment ADD COLUMN wall REAL NOT NULL DEFAULT 0;
-PRAGMA user_version = 2;
 )sql";
+
+/// From schema 2 to 3.
+std::string add_poses() {
+  return "ALTER TABLE fragment ADD COLUMN pose TEXT NOT NULL DEFAULT ''; DROP VIEW ranked;" +
+         fmt::format(kPairs, "pair_with_apart") +
+         "INSERT INTO pair_with_apart SELECT * FROM pair; DROP TABLE pair;"
+         "ALTER TABLE pair_with_apart RENAME TO pair;" +
+         kLooksAtPairs;
+}
 
 constexpr const char* kGiveARun = "give the folder that rejoin batch wrote";
 
@@ -118,7 +137,7 @@ void make_tables(SQLite::Database& database) {
   SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
   if (pragma(database, "user_version") == 0 &&
       database.execAndGet("SELECT count(*) FROM sqlite_master").getInt() == 0) {
-    database.exec(kTables);
+    database.exec(kRunAndFragments + fmt::format(kPairs, "pair") + kCandidates + kLooksAtPairs);
     database.exec(
         fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", kApplication, kSchemaVersion));
   }
@@ -133,7 +152,7 @@ void require_schema(SQLite::Database& database, const std::string& path) {
   if (version < kOldestSchema || version > kSchemaVersion) {
     throw StoreError(
         path,
-        fmt::format("has schema {}, this program knows {} and {}", version, kOldestSchema, kSchemaVersion),
+        fmt::format("has schema {}, this program knows {} to {}", version, kOldestSchema, kSchemaVersion),
         "use the rejoin that wrote it, or run rejoin batch into a new folder");
   }
 }
@@ -141,11 +160,17 @@ void require_schema(SQLite::Database& database, const std::string& path) {
 void bring_up_to_date(SQLite::Database& database) {
   SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
   if (!has_lengths(database)) database.exec(kAddLengths);
+  if (!has_poses(database)) database.exec(add_poses());
+  database.exec(fmt::format("PRAGMA user_version = {}", kSchemaVersion));
   transaction.commit();
 }
 
 bool has_lengths(SQLite::Database& database) {
   return pragma(database, "user_version") >= 2;
+}
+
+bool has_poses(SQLite::Database& database) {
+  return pragma(database, "user_version") >= 3;
 }
 
 std::filesystem::path database_file(const std::filesystem::path& folder) {

@@ -11,7 +11,7 @@
 namespace rejoin::store::detail {
 
 /// Raised whenever a table changes its meaning; kept in PRAGMA user_version.
-inline constexpr int kSchemaVersion = 2;
+inline constexpr int kSchemaVersion = 3;
 inline constexpr int kOldestSchema = 1;  ///< that is still read
 
 /// How long to wait while a reader's checkpoint or a copy holds the file.
@@ -23,11 +23,14 @@ void make_tables(SQLite::Database& database);
 /// \throws StoreError the file is a database, but none of a run, or one of a newer schema
 void require_schema(SQLite::Database& database, const std::string& path);
 
-/// Makes one of an earlier schema one of ours.  \pre opened for writing
+/// Makes one of an earlier schema one of ours.  \pre opened for writing, foreign keys not yet enforced
 void bring_up_to_date(SQLite::Database& database);
 
 /// Whether fragments have spacing, noise and wall, as from schema 2 on.
 bool has_lengths(SQLite::Database& database);
+
+/// Whether fragments have a pose, and pairs may be apart, as from schema 3 on.
+bool has_poses(SQLite::Database& database);
 
 /// The database of a run's folder, or the file itself.
 std::filesystem::path database_file(const std::filesystem::path& folder);
