@@ -50,6 +50,7 @@ class Work {
         names_(find_scans(inputs)),
         equal_sized_(files_of_equal_size(inputs, names_)),
         copies_(store::copies(equal_sized_)),
+        layout_(without_copies(options.layout)),
         tiles_(tiles_of(take_copies_off(), options.shard)),
         run_(open(output)),
         shelf_(output / kCacheName) {}
@@ -68,6 +69,15 @@ class Work {
   static store::Run open(const fs::path& output) {
     require_writable_folder(output / kCacheName);
     return store::Run::write(output);
+  }
+
+  /// Where the user laid a copy, what stands for it lies.
+  Layout without_copies(Layout layout) const {
+    for (const auto& [copy, first] : copies_) {
+      const auto laid = layout.extract(copy);
+      if (!laid.empty()) layout.try_emplace(first, laid.mapped());
+    }
+    return layout;
   }
 
   /// \return how many names stay
@@ -164,6 +174,8 @@ class Work {
       fragment.name = name;
       fragment.path = fs::absolute(inputs_ / name).lexically_normal().string();
       fragment.hash = hashes[name];
+      if (const auto laid = layout_.find(name); laid != layout_.end())
+        fragment.pose = pose_text(laid->second);
       list.push_back(std::move(fragment));
     }
     run_side_by_side(list.size(), [&](std::size_t k) {
@@ -212,7 +224,7 @@ class Work {
     std::optional<Searched> found;
     if (prepared_a != nullptr && prepared_b != nullptr) {
       const Context alone({}, context_);
-      found = search_pair(*prepared_a, *prepared_b, options_.match, alone);
+      found = search_pair(*prepared_a, *prepared_b, options_of(a.name, b.name), alone);
     } else if (!context_.cancelled()) {
       found = unusable(prepared_a == nullptr ? a : b);
     }
@@ -222,6 +234,16 @@ class Work {
     found->pair.name_a = a.name;
     found->pair.name_b = b.name;
     keep(*found);
+  }
+
+  match::Options options_of(const std::string& a, const std::string& b) const {
+    match::Options options = options_.match;
+    const auto laid_a = layout_.find(a);
+    const auto laid_b = layout_.find(b);
+    if (laid_a == layout_.end() || laid_b == layout_.end()) return options;
+    options.near = inverse(laid_a->second) * laid_b->second;
+    options.promising_only = false;
+    return options;
   }
 
   static Searched unusable(const store::Fragment& fragment) {
@@ -269,6 +291,7 @@ class Work {
   std::vector<std::string> names_;             // of the scans that have pairs
   std::vector<store::Fragment> equal_sized_;   // name and hash
   std::map<std::string, std::string> copies_;  // of the others, with the names that stand for them
+  Layout layout_;                              // of scans that have pairs
   std::vector<Tile> tiles_;
   store::Run run_;
   Shelf shelf_;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,10 +15,16 @@
 
 namespace rejoin::batch {
 
+/// Scans that the user laid together roughly, by name: a scan's file coordinates -> those of the layout.
+using Layout = std::map<std::string, Rigid>;
+
 struct Options {
   Options() { match.promising_only = true; }
 
   match::Options match;
+  /// Two scans of it are looked for near the pose that they have there, and there alone, in full.  If they lie too far apart there to
+  /// touch, they are not looked for.
+  Layout layout;
   Shard shard;
   bool retry = false;  ///< try again what failed in an earlier run
 };

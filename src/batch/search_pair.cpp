@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "match/near.hpp"
 
 namespace rejoin::batch {
 namespace {
@@ -55,10 +56,19 @@ Searched failed(const std::string& error) {
   return found;
 }
 
+Searched apart() {
+  Searched found;
+  found.pair.stage = store::Stage::Apart;
+  found.pair.verdict = name_of(match::Verdict::NoJoin);
+  found.pair.result = "{}";
+  return found;
+}
+
 }  // namespace
 
 std::optional<Searched> search_pair(const match::Fragment& a, const match::Fragment& b,
                                     const match::Options& options, const Context& context) {
+  if (options.near && !match::may_touch(a, b, *options.near)) return apart();
   const auto begin = std::chrono::steady_clock::now();
   Searched found;
   try {
@@ -81,6 +91,16 @@ std::string parameters_json(const match::Options& options) {
                   {"chains", options.chains},
                   {"promising_only", options.promising_only},
                   {"max_candidates", options.max_candidates}});
+}
+
+std::string pose_text(const Rigid& pose) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (int row = 0; row < 3; ++row) {
+    rows.push_back(
+        {pose.rotation[0][row], pose.rotation[1][row], pose.rotation[2][row], pose.translation[row]});
+  }
+  rows.push_back({0.0, 0.0, 0.0, 1.0});
+  return text_of(rows);
 }
 
 }  // namespace rejoin::batch

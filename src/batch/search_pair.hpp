@@ -16,12 +16,15 @@ struct Searched {
   std::vector<store::Candidate> candidates;
 };
 
-/// Searches the pair.  An error of the search becomes a failed pair.
+/// Searches the pair; not if options.near has them apart (match::may_touch()).  An error of the search becomes a failed pair.
 /// \return nullopt if it was cancelled
 std::optional<Searched> search_pair(const match::Fragment& a, const match::Fragment& b,
                                     const match::Options& options, const Context& context);
 
 /// What of the options has an influence on results, as JSON with sorted keys; the seed is kept apart.
 std::string parameters_json(const match::Options& options);
+
+/// A pose as store::Fragment keeps it: 4 x 4 as JSON, with all digits.
+std::string pose_text(const Rigid& pose);
 
 }  // namespace rejoin::batch

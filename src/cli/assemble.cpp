@@ -15,6 +15,7 @@
 #include "cli/assemble_input.hpp"
 #include "cli/command.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/layout.hpp"
 #include "core/files.hpp"
 #include "core/words.hpp"
 #include "store/run.hpp"
@@ -51,6 +52,9 @@ class AssembleCommand final : public Command {
     app.add_option("--constraints", constraints_, "JSON: pairs that must or must not join, poses")
         ->type_name("FILE")
         ->group("Input");
+    app.add_option("--layout", layout_, "scans laid together by hand, as of rejoin batch")
+        ->type_name("FILE")
+        ->group("Input");
     app.add_option("--json", json_, "poses and joins here too, not only in the run")
         ->type_name("FILE")
         ->group("Output");
@@ -70,12 +74,14 @@ class AssembleCommand final : public Command {
     const std::vector<std::filesystem::path> files = json_files(console);
     std::optional<std::filesystem::path> keep;
     if (out_) keep = kept_run();
+    batch::Options matching;
     std::optional<ConstraintsFile> constraints;
     if (constraints_) {
       constraints = open_constraints(*constraints_);
       read_constraints(*constraints, names_in(input_));  // before hours of matching
     }
-    const AssembleInput input = read_assemble_input(input_, keep, console, context);
+    if (layout_) matching.layout = read_layout(*layout_, names_in(input_));
+    const AssembleInput input = read_assemble_input(input_, keep, matching, console, context);
     if (context.cancelled()) return stopped(console);
     if (constraints) options_.constraints = read_constraints(*constraints, input.names, input.bad);
     const assembly::Result result = assembly::assemble(input.fragments, input.links, options_, context);
@@ -114,6 +120,10 @@ class AssembleCommand final : public Command {
       throw UsageError(input_, "is no run, so nothing would be kept of its assembly",
                        "add --out DIR for all of it, or --json FILE for the poses alone");
     }
+    if (layout_ && is_run(input_)) {
+      throw UsageError("--layout", "serves a folder of scans, this is a run",
+                       "give it to rejoin batch, or leave it out");
+    }
     if (json_) require_writable_file(*json_);
     if (out_) require_writable_folder(*out_);
   }
@@ -149,6 +159,7 @@ class AssembleCommand final : public Command {
 
   std::string input_;
   std::optional<std::string> constraints_;
+  std::optional<std::string> layout_;
   std::optional<std::string> json_;
   std::optional<std::string> out_;
   assembly::Options options_;

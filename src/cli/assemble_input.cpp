@@ -172,10 +172,10 @@ class PassingFolder {
   RemoveWhenKilled killed_;
 };
 
-AssembleInput match_and_read(const fs::path& scans, const fs::path& run, Console& console,
-                             const Context& context) {
+AssembleInput match_and_read(const fs::path& scans, const fs::path& run, const batch::Options& matching,
+                             Console& console, const Context& context) {
   const auto listener = make_console_listener(console);
-  const batch::Summary summary = batch::run(scans, run, batch::Options(), *listener, context);
+  const batch::Summary summary = batch::run(scans, run, matching, *listener, context);
   console.end_progress();
   if (summary.cancelled) return {};
   AssembleInput input = read_run(run, console, context);
@@ -198,11 +198,11 @@ std::vector<std::string> names_in(const fs::path& folder) {
 }
 
 AssembleInput read_assemble_input(const fs::path& folder, const std::optional<fs::path>& keep,
-                                  Console& console, const Context& context) {
+                                  const batch::Options& matching, Console& console, const Context& context) {
   if (is_run(folder)) return read_run(folder, console, context);
-  if (keep) return match_and_read(folder, *keep, console, context);
+  if (keep) return match_and_read(folder, *keep, matching, console, context);
   const PassingFolder passing;
-  return match_and_read(folder, passing.path(), console, context);
+  return match_and_read(folder, passing.path(), matching, console, context);
 }
 
 }  // namespace rejoin::cli

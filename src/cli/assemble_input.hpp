@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "assembly/assembly.hpp"
+#include "batch/batch.hpp"
 #include "cli/console.hpp"
 #include "store/remains.hpp"
 
@@ -40,10 +41,11 @@ std::vector<std::string> names_in(const std::filesystem::path& folder);
 /// left out.
 /// \param folder  of a run (it holds run.sqlite), or of scans
 /// \param keep    folder for the run of a folder of scans: a run that is there goes on; nullopt: a passing one
+/// \param matching  of a folder of scans
 /// \return nothing at all if it was interrupted while matching
 /// \throws IoError, StoreError, InputError as batch::run(); InputError fewer than two fragments can be used
 AssembleInput read_assemble_input(const std::filesystem::path& folder,
-                                  const std::optional<std::filesystem::path>& keep, Console& console,
-                                  const Context& context);
+                                  const std::optional<std::filesystem::path>& keep,
+                                  const batch::Options& matching, Console& console, const Context& context);
 
 }  // namespace rejoin::cli

@@ -10,10 +10,12 @@
 #include <optional>
 #include <string>
 
+#include "batch/inputs.hpp"
 #include "batch/table.hpp"
 #include "cli/arguments.hpp"
 #include "cli/batch_listeners.hpp"
 #include "cli/command.hpp"
+#include "cli/layout.hpp"
 #include "core/words.hpp"
 
 namespace rejoin::cli {
@@ -43,6 +45,9 @@ class BatchCommand final : public Command {
     app.add_option("DIR", inputs_, "folder of scans: ply, obj, stl, off, gltf, glb, drc, xyz or pts")
         ->required()
         ->group("Input");
+    app.add_option("--layout", layout_, "scans laid together by hand: MeshLab project, JSON")
+        ->type_name("FILE")
+        ->group("Input");
     app.add_option("--out", out_, "folder of the run; goes on with what it holds")
         ->type_name("RUN")
         ->required()
@@ -61,6 +66,7 @@ class BatchCommand final : public Command {
   ExitCode run(Console& console, Context& context) override {
     options_.match.promising_only = !thorough_;
     if (shard_) options_.shard = parse_shard(*shard_);
+    if (layout_) options_.layout = read_layout(*layout_, batch::find_scans(inputs_));
     const auto listener = json_ ? make_json_listener(console) : make_console_listener(console);
     const auto begin = std::chrono::steady_clock::now();
     const batch::Summary summary = batch::run(inputs_, out_, options_, *listener, context);
@@ -105,6 +111,7 @@ class BatchCommand final : public Command {
 
   std::string inputs_;
   std::string out_;
+  std::optional<std::string> layout_;
   std::optional<std::string> shard_;
   bool json_ = false;
   bool thorough_ = false;

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "cli/broken_pipe.hpp"
+#include "core/words.hpp"
 
 namespace rejoin::cli {
 namespace {
@@ -25,6 +26,11 @@ class WarningListener : public batch::Listener {
     }
     for (const std::string& name : forgotten.fragments) {
       console_.warning(fmt::format("{}: has changed or is gone; its pairs are done again or dropped", name));
+    }
+    if (forgotten.laid_pairs > 0) {
+      console_.warning(
+          fmt::format("{} laid otherwise than before; done again",
+                      counted(forgotten.laid_pairs, "pair") + (forgotten.laid_pairs == 1 ? " is" : " are")));
     }
   }
 
@@ -100,9 +106,11 @@ class JsonListener final : public WarningListener {
 
   void on_start(const store::Run::Forgotten& forgotten, const batch::Progress& progress) override {
     WarningListener::on_start(forgotten, progress);
-    ordered_json json = {
-        {"event", "start"},
-        {"forgotten", {{"all_pairs", forgotten.parameters}, {"fragments", forgotten.fragments}}}};
+    ordered_json json = {{"event", "start"},
+                         {"forgotten",
+                          {{"all_pairs", forgotten.parameters},
+                           {"fragments", forgotten.fragments},
+                           {"laid_pairs", forgotten.laid_pairs}}}};
     add_progress(json, progress);
     print_line(console_, json);
   }

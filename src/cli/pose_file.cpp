@@ -15,7 +15,8 @@ using nlohmann::ordered_json;
 
 constexpr const char* kMend = "give the JSON of rejoin match, or four rows of four numbers";
 
-/// Sixteen numbers as rows; a discarded value if the text is anything else.
+}  // namespace
+
 ordered_json rows_of_numbers(const std::string& text) {
   std::istringstream in(text);
   ordered_json rows = ordered_json::array();
@@ -27,8 +28,6 @@ ordered_json rows_of_numbers(const std::string& text) {
   const bool whole = rows.size() == 4 && rows.back().size() == 4 && in && (in >> std::ws).eof();
   return whole ? rows : ordered_json(ordered_json::value_t::discarded);
 }
-
-}  // namespace
 
 Rigid read_pose(const std::string& path) {
   const std::string text = read_json_text(path, kMend);

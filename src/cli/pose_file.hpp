@@ -1,6 +1,7 @@
 /// Poses that a user gives in a file.
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "core/rigid.hpp"
@@ -11,5 +12,8 @@ namespace rejoin::cli {
 /// CloudCompare copies and saves them.
 /// \throws IoError it cannot be read   \throws InputError it holds no proper rigid motion
 Rigid read_pose(const std::string& path);
+
+/// Sixteen numbers as four rows, as they are in files of poses; a discarded value if the text is anything else.
+nlohmann::ordered_json rows_of_numbers(const std::string& text);
 
 }  // namespace rejoin::cli

@@ -269,6 +269,10 @@ std::string verdict_of(const store::Pair& pair) {
 void add_pairs(report::RunReport& report, const store::Run& run, const Numbers& numbers, std::size_t listed) {
   std::size_t rank = 0;
   for (const store::Pair& stored : run.pairs()) {
+    if (stored.stage == store::Stage::Apart) {
+      ++report.apart_pairs;
+      continue;
+    }
     report::ReportPair pair;
     pair.a = numbers.at(stored.name_a);
     pair.b = numbers.at(stored.name_b);
@@ -327,6 +331,10 @@ void add_parameters(report::RunReport& report, const store::Run& run, const std:
   report.parameters = {{"run", folder.string()},
                        {"matched by", "rejoin " + parameters.version},
                        {"--seed", std::to_string(parameters.seed)}};
+  const std::vector<store::Fragment> fragments = run.fragments();
+  const auto laid = std::ranges::count_if(fragments, [](const auto& f) { return !f.pose.empty(); });
+  if (laid > 0)
+    report.parameters.emplace_back("--layout", fmt::format("lays {} of {} scans", laid, fragments.size()));
   const ordered_json json = ordered_json::parse(parameters.json, nullptr, false);
   if (!json.is_object()) return;
   for (const auto& [name, value] : json.items()) {

@@ -32,4 +32,8 @@ class Near {
   double shift_ = 0;
 };
 
+/// Whether any pose near a rough one may bring the surfaces together: if not, their boxes lie farther apart than B can move.
+/// \param in_files  the rough pose, B's file coordinates -> A's
+bool may_touch(const Fragment& a, const Fragment& b, const Rigid& in_files);
+
 }  // namespace rejoin::match

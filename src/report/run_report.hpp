@@ -75,6 +75,7 @@ struct RunReport {
   std::vector<ReportFragment> fragments;
   std::vector<ReportPair> pairs;  ///< any order; each two fragments at most once
   std::size_t missing_pairs = 0;  ///< that are not compared yet
+  std::size_t apart_pairs = 0;    ///< that the user laid too far apart to be searched
   std::vector<std::pair<std::string, std::string>> parameters;  ///< shown as they are, in this order
   std::vector<std::string> warnings;
   ReportConstraints constraints = {};

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "../match/planted_block.hpp"
+#include "batch_runs.hpp"
 #include "core/random.hpp"
 #include "mesh/save.hpp"
 #include "run_program.hpp"
@@ -17,26 +18,6 @@ namespace rejoin::cli::testing {
 namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-constexpr int kCells = 5;  // as coarse as poses are still found: what is tested is the run, not the match
-
-/// Everything in a run's database but for seconds and paths, as text.
-std::string content(const std::string& run) {
-  SQLite::Database database(run + "/run.sqlite", SQLite::OPEN_READONLY);
-  std::ostringstream text;
-  const auto dump = [&](const char* query) {
-    SQLite::Statement rows(database, query);
-    while (rows.executeStep()) {
-      for (int k = 0; k < rows.getColumnCount(); ++k) text << rows.getColumn(k).getString() << '|';
-      text << '\n';
-    }
-  };
-  dump("SELECT version, parameters, seed FROM run");
-  dump("SELECT id, name, hash, faces, diameter, state, error FROM fragment ORDER BY id");
-  dump("SELECT a, b, stage, evidence, score, verdict, error, result FROM pair ORDER BY a, b");
-  dump("SELECT * FROM candidate ORDER BY a, b, rank");
-  return text.str();
-}
 
 int pairs_in(const std::string& run) {
   return SQLite::Database(run + "/run.sqlite", SQLite::OPEN_READONLY)
@@ -76,16 +57,6 @@ class Batch : public ::testing::Test {
   }
 
   static std::string scans() { return *home_ / "scans"; }
-
-  static void make_scans(const std::string& folder) {
-    fs::create_directories(folder);
-    const auto first = match::testing::planted_pair(7, kCells);
-    const auto second = match::testing::planted_pair(8, kCells);
-    mesh::save(folder + "/a7.ply", first.a);
-    mesh::save(folder + "/b7.ply", first.b);
-    mesh::save(folder + "/a8.ply", second.a);
-    write_file(folder + "/truth.json", "{}");
-  }
 
   static TemporaryFolder* home_;
   static double seconds_;
@@ -155,15 +126,6 @@ TEST_F(Batch, SecondRunDoesNothing) {
   EXPECT_EQ(again.exit_code, 0);
   EXPECT_NE(again.out.find("wrote " + run_ + "/pairs.csv"), std::string::npos) << again.out;
   EXPECT_NE(again.out.find("0 of them now"), std::string::npos) << again.out;
-}
-
-/// "a+b: stage" of every pair.
-std::vector<std::string> stages_in(const std::string& run) {
-  SQLite::Database database(run + "/run.sqlite", SQLite::OPEN_READONLY);
-  SQLite::Statement rows(database, "SELECT a || '+' || b || ': ' || stage FROM ranked ORDER BY a, b");
-  std::vector<std::string> list;
-  while (rows.executeStep()) list.push_back(rows.getColumn(0).getString());
-  return list;
 }
 
 std::string best_pose_of_the_join(const std::string& run) {

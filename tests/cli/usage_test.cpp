@@ -49,6 +49,7 @@ TEST(CommandLine, OutputsThatWouldTakeWhatIsReadAreRefused) {
       {"match", scan, other, "--json", other},
       {"match", scan, other, "--near", truth, "--json", truth},
       {"facets", scan, "--ply", folder / "./scan.ply"},
+      {"assemble", folder / "elsewhere", "--layout", truth, "--json", truth},
       {"assemble", folder / ".", "--json", other},
       {"assemble", folder / ".", "--json", link},
       {"outline", "match", piece, other, "--json", piece},

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "../mesh/shapes.hpp"
 #include "prepared_pair.hpp"
 
 namespace rejoin::match {
@@ -41,6 +42,27 @@ TEST(Near, ThePlantedPoseIsFoundFromARoughOneWithLessWork) {
   EXPECT_LT(angle_between(result.candidates.front().pose, pair.planted.truth), 1.0 * kDegree);
   EXPECT_EQ(result.verdict, Verdict::Join);
   EXPECT_LT(result.evaluations, all.evaluations / 2);
+}
+
+Fragment box(const glm::vec3& size) {
+  Fragment fragment;
+  fragment.surface = mesh::test::box(size, 1);
+  fragment.diameter = glm::length(size);
+  return fragment;
+}
+
+TEST(Near, MayTouchWhateverATurnAndAShiftWithinTheLimitsMayBringTogether) {
+  const Fragment block = box({100, 100, 100});
+  const Fragment stick = box({1, 1, 100});
+  // Upright on the block, then leaning as far as the limit allows, and lifted.
+  const glm::dmat3 lean = axis_rotation({1, 0, 0}, Near::kTurn_deg * kDegree);
+  const auto may = [&](double lifted) {
+    return may_touch(block, stick, {lean, glm::dvec3(0, 0, 100.0 + lifted)});
+  };
+  const double most = Near::kShift * stick.diameter;
+  EXPECT_TRUE(may(0.0));
+  EXPECT_TRUE(may(0.99 * most)) << "down by the shift, and upright again";
+  EXPECT_FALSE(may(most + 30.0)) << "its end swings by 22 at most";
 }
 
 TEST(Near, NoAnswerLiesFarFromARoughPoseThatIsWrong) {

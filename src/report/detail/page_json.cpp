@@ -129,6 +129,7 @@ std::string page_json(const PageData& data) {
                              {"gap_scale", data.gap_scale},
                              {"compared", number_of(Comparison::Done)},
                              {"failed", number_of(Comparison::Failed)},
+                             {"apart", report.apart_pairs},
                              {"missing", report.missing_pairs},
                              {"pairs", pairs},
                              {"scores", base64(score_triangle(report))},

@@ -19,6 +19,7 @@ export function overview(data, choose, check) {
     [data.compared, data.compared === 1 ? 'pair compared' : 'pairs compared'],
   ];
   if (data.failed > 0) figures.push([data.failed, data.failed === 1 ? 'pair failed' : 'pairs failed']);
+  if (data.apart > 0) figures.push([data.apart, data.apart === 1 ? 'pair apart in the layout' : 'pairs apart in the layout']);
   if (data.missing > 0) figures.push([data.missing, data.missing === 1 ? 'pair not compared yet' : 'pairs not compared yet']);
   return h(
     'section',

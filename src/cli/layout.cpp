@@ -1,0 +1,112 @@
+#include "cli/layout.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <optional>
+#include <pugixml.hpp>
+#include <sstream>
+
+#include "cli/assemble_constraints.hpp"
+#include "cli/json_values.hpp"
+#include "cli/pose_file.hpp"
+#include "core/error.hpp"
+
+namespace rejoin::cli {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr const char* kMend = "see \"A rough layout\" in docs/box-of-sherds.md";
+constexpr const char* kNoScale =
+    "in MeshLab, take back what scales or mirrors (Reset Matrix), lay the piece again with turns and shifts "
+    "alone and save the project";
+
+class Reader {
+ public:
+  Reader(const std::string& path, const std::vector<std::string>& names)
+      : path_(path), names_(names), text_(read_json_text(path, kMend)) {}
+
+  batch::Layout read() {
+    const std::size_t first = text_.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+    if (first != std::string::npos && text_[first] == '<') {
+      read_project();
+    } else {
+      read_json();
+    }
+    if (layout_.size() < 2)
+      fail(fmt::format("lays {} of the folder's scans",
+                       layout_.empty() ? std::string("none") : "only " + layout_.begin()->first),
+           "lay two or more beside each other");
+    return layout_;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& problem, const char* mend = kMend) const {
+    throw InputError(path_, problem, mend);
+  }
+
+  void lay(const std::string& name, const std::optional<Rigid>& pose, const char* mend) {
+    if (std::find(names_.begin(), names_.end(), name) == names_.end())
+      fail(fmt::format("lays \"{}\", which is no scan of the folder", name),
+           "take it out, or hide it in MeshLab");
+    if (!pose) fail(fmt::format("the matrix of \"{}\" {}", name, kNoRigid), mend);
+    if (!layout_.emplace(name, *pose).second)
+      fail(fmt::format("lays \"{}\" twice", name), "leave one of the two");
+  }
+
+  void read_project() {
+    pugi::xml_document document;
+    const pugi::xml_parse_result parsed = document.load_buffer(text_.data(), text_.size());
+    if (!parsed)
+      fail(fmt::format("is no MeshLab project: {} at byte {}", parsed.description(), parsed.offset),
+           "save it again");
+    const pugi::xml_node project = document.child("MeshLabProject");
+    if (!project) fail("is no MeshLab project");
+    for (const pugi::xml_node& layer : project.child("MeshGroup").children("MLMesh")) {
+      if (std::string(layer.attribute("visible").as_string("1")) == "0") continue;
+      const std::string file = layer.attribute("filename").as_string();
+      lay(file.substr(file.find_last_of("/\\") + 1), pose_of(layer), kNoScale);
+    }
+  }
+
+  /// A layer without a matrix was not moved.
+  static std::optional<Rigid> pose_of(const pugi::xml_node& layer) {
+    const pugi::xml_node matrix = layer.child("MLMatrix44");
+    return matrix ? rigid_from_json(rows_of_numbers(matrix.text().as_string())) : Rigid{};
+  }
+
+  void read_json() {
+    const ordered_json json = ordered_json::parse(text_, nullptr, false);
+    if (json.is_discarded()) fail("is neither a MeshLab project nor JSON");
+    if (json.is_object() && json.contains("schema")) {
+      read_assembly(json);
+      return;
+    }
+    for (const auto& [number, pose] : read_constraints({path_, text_}, names_).pinned)
+      layout_.emplace(names_[number], pose);
+  }
+
+  void read_assembly(const ordered_json& json) {
+    if (json["schema"] != "rejoin.assembly/1" || !json.contains("fragments") ||
+        !json["fragments"].is_object())
+      fail("is no assembly (schema rejoin.assembly/1)");
+    for (const auto& [name, fragment] : json["fragments"].items()) {
+      if (!fragment.is_object() || !fragment.contains("pose") || fragment["pose"].is_null()) continue;
+      lay(name, rigid_from_json(fragment["pose"]), "make it again with rejoin assemble");
+    }
+  }
+
+  const std::string& path_;
+  const std::vector<std::string>& names_;
+  std::string text_;
+  batch::Layout layout_;
+};
+
+}  // namespace
+
+batch::Layout read_layout(const std::string& path, const std::vector<std::string>& names) {
+  return Reader(path, names).read();
+}
+
+}  // namespace rejoin::cli

@@ -1,0 +1,99 @@
+/// The file of --layout, good and hostile.
+#include "cli/layout.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "run_program.hpp"
+
+namespace rejoin::cli::testing {
+namespace {
+
+const std::vector<std::string> kNames{"a.ply", "b & c.ply", "d.ply"};
+
+constexpr const char* kTurned = "0 -1 0 5 \n1 0 0 6 \n0 0 1 7 \n0 0 0 1 \n";
+
+batch::Layout read(const std::string& content) {
+  const TemporaryFolder folder;
+  write_file(folder / "laid", content);
+  return read_layout(folder / "laid", kNames);
+}
+
+std::string layer(const std::string& file, const std::string& matrix, const std::string& more = "") {
+  return "<MLMesh " + more + " label=\"x\" filename=\"" + file + "\"><MLMatrix44>\n" + matrix +
+         "</MLMatrix44><RenderingOption pointSize=\"3\"/></MLMesh>\n";
+}
+
+std::string project(const std::string& layers) {
+  return "<!DOCTYPE MeshLabDocument>\n<MeshLabProject>\n <MeshGroup>\n" + layers +
+         " </MeshGroup>\n <RasterGroup/>\n</MeshLabProject>\n";
+}
+
+TEST(ReadLayout, TakesTheLayersOfAMeshLabProjectByTheNamesOfTheirFiles) {
+  const batch::Layout layout =
+      read("\xEF\xBB\xBF" + project(layer("../scans/b &amp; c.ply", kTurned, "visible=\"1\"") +
+                                    layer("C:\\scans\\d.ply", kTurned) + "<MLMesh filename=\"a.ply\"/>"));
+  ASSERT_EQ(layout.size(), 3U);
+  EXPECT_EQ(layout.at("b & c.ply")({1, 0, 0}), glm::dvec3(5, 7, 7));
+  EXPECT_EQ(layout.at("d.ply")({1, 0, 0}), glm::dvec3(5, 7, 7));
+  EXPECT_EQ(layout.at("a.ply")({1, 2, 3}), glm::dvec3(1, 2, 3)) << "was not moved";
+}
+
+TEST(ReadLayout, LeavesOutWhatIsHiddenInMeshLab) {
+  const batch::Layout layout = read(project(layer("a.ply", kTurned) + layer("d.ply", kTurned) +
+                                            layer("b &amp; c.ply", kTurned, "visible=\"0\"") +
+                                            layer("table.ply", kTurned, "visible=\"0\"")));
+  EXPECT_EQ(layout.size(), 2U);
+  EXPECT_EQ(layout.count("b & c.ply"), 0U);
+}
+
+TEST(ReadLayout, TakesThePosesOfConstraintsAndOfAnAssembly) {
+  const std::string rows = "[[0, -1, 0, 5], [1, 0, 0, 6], [0, 0, 1, 7], [0, 0, 0, 1]]";
+  const batch::Layout poses = read(R"({"poses": {"a.ply": )" + rows + R"(, "d.ply": )" + rows + "}}");
+  ASSERT_EQ(poses.size(), 2U);
+  EXPECT_EQ(poses.at("d.ply")({1, 0, 0}), glm::dvec3(5, 7, 7));
+  const batch::Layout assembly = read(
+      R"({"schema": "rejoin.assembly/1", "fragments": {"a.ply": {"pose": )" + rows +
+      R"(, "group": 0}, "b & c.ply": {"pose": null, "reason": "alone"}, "d.ply": {"pose": )" + rows + "}}}");
+  ASSERT_EQ(assembly.size(), 2U);
+  EXPECT_EQ(assembly.at("d.ply")({1, 0, 0}), glm::dvec3(5, 7, 7));
+}
+
+TEST(ReadLayout, RefusesWhatIsNoneWithTheReason) {
+  const std::string a = layer("a.ply", kTurned);
+  const std::string rows = "[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]";
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"", "neither a MeshLab project nor JSON"},
+      {"a.ply 1 0 0", "neither a MeshLab project nor JSON"},
+      {"<MeshLabProject><MeshGroup>", "is no MeshLab project: "},
+      {"<svg/>", "is no MeshLab project"},
+      {project(""), "lays none of the folder's scans"},
+      {project(a), "lays only a.ply of the folder's scans"},
+      {"{}", "lays none of the folder's scans"},
+      {project(a + a), "lays \"a.ply\" twice"},
+      {project(a + layer("table.ply", kTurned)), "lays \"table.ply\", which is no scan of the folder"},
+      {project(a + layer("d.ply", "2 0 0 0\n0 2 0 0\n0 0 2 0\n0 0 0 1\n")),
+       "the matrix of \"d.ply\" is no 4 x 4 matrix of a rotation and a shift of at most 1e13; in MeshLab"},
+      {project(a + layer("d.ply", "-1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n")), "the matrix of \"d.ply\""},
+      {project(a + layer("d.ply", "nan 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n")), "the matrix of \"d.ply\""},
+      {project(a + layer("d.ply", "1 0 0 0\n")), "the matrix of \"d.ply\""},
+      {R"({"poses": {"a.ply": )" + rows + R"(, "e.ply": )" + rows + "}}", "no fragment \"e.ply\""},
+      {R"({"schema": "rejoin.match/1", "fragments": {}})", "is no assembly"},
+      {R"({"schema": "rejoin.assembly/1", "fragments": []})", "is no assembly"},
+      {R"({"schema": "rejoin.assembly/1", "fragments": {"a.ply": {"pose": 1}}})", "the matrix of \"a.ply\""},
+      {R"({"schema": "rejoin.assembly/1", "fragments": {"e.ply": {"pose": )" + rows + "}}}",
+       "lays \"e.ply\", which is no scan"}};
+  for (const auto& [content, says] : cases) {
+    try {
+      read(content);
+      ADD_FAILURE() << content;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("; "), std::string::npos) << "no mend: " << error.what();
+    }
+  }
+  EXPECT_THROW(read_layout("/nowhere/laid.mlp", kNames), IoError);
+}
+
+}  // namespace
+}  // namespace rejoin::cli::testing
