@@ -51,6 +51,7 @@ class Work {
         equal_sized_(files_of_equal_size(inputs, names_)),
         copies_(store::copies(equal_sized_)),
         layout_(without_copies(options.layout)),
+        painted_(without_copies(options.painted)),
         tiles_(tiles_of(take_copies_off(), options.shard)),
         run_(open(output)),
         shelf_(output / kCacheName) {}
@@ -71,13 +72,14 @@ class Work {
     return store::Run::write(output);
   }
 
-  /// Where the user laid a copy, what stands for it lies.
-  Layout without_copies(Layout layout) const {
+  /// What the user says of a copy holds for what stands for it.
+  template <class Value>
+  std::map<std::string, Value> without_copies(std::map<std::string, Value> said) const {
     for (const auto& [copy, first] : copies_) {
-      const auto laid = layout.extract(copy);
-      if (!laid.empty()) layout.try_emplace(first, laid.mapped());
+      const auto of_copy = said.extract(copy);
+      if (!of_copy.empty()) said.try_emplace(first, of_copy.mapped());
     }
-    return layout;
+    return said;
   }
 
   /// \return how many names stay
@@ -176,6 +178,8 @@ class Work {
       fragment.hash = hashes[name];
       if (const auto laid = layout_.find(name); laid != layout_.end())
         fragment.pose = pose_text(laid->second);
+      if (const auto file = painted_.find(name); file != painted_.end())
+        fragment.facets = keep_painted(file->second, output_ / kCacheName);
       list.push_back(std::move(fragment));
     }
     run_side_by_side(list.size(), [&](std::size_t k) {
@@ -292,6 +296,7 @@ class Work {
   std::vector<store::Fragment> equal_sized_;   // name and hash
   std::map<std::string, std::string> copies_;  // of the others, with the names that stand for them
   Layout layout_;                              // of scans that have pairs
+  Painted painted_;                            // of these
   std::vector<Tile> tiles_;
   store::Run run_;
   Shelf shelf_;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "batch/painted.hpp"
 #include "batch/tiles.hpp"
 #include "core/context.hpp"
 #include "match/match.hpp"
@@ -25,6 +26,7 @@ struct Options {
   /// Two scans of it are looked for near the pose that they have there, and there alone, in full.  If they lie too far apart there to
   /// touch, they are not looked for.
   Layout layout;
+  Painted painted;  ///< breaks where they are found wrong
   Shard shard;
   bool retry = false;  ///< try again what failed in an earlier run
 };

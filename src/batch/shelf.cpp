@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "batch/painted.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/parallel.hpp"
@@ -142,6 +143,7 @@ match::Fragment load_prepared(const store::Fragment& fragment, const fs::path& c
   }
   match::Fragment prepared = match::prepare(fragment.path, std::move(*surface), context);
   prepared.warnings.insert(prepared.warnings.begin(), warnings.begin(), warnings.end());
+  if (!fragment.facets.empty()) use_kept_paint(prepared, fragment, cache);
   return prepared;
 }
 

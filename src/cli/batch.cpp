@@ -15,6 +15,7 @@
 #include "cli/arguments.hpp"
 #include "cli/batch_listeners.hpp"
 #include "cli/command.hpp"
+#include "cli/fragment.hpp"
 #include "cli/layout.hpp"
 #include "core/words.hpp"
 
@@ -48,6 +49,9 @@ class BatchCommand final : public Command {
     app.add_option("--layout", layout_, "scans laid together by hand: MeshLab project, JSON")
         ->type_name("FILE")
         ->group("Input");
+    app.add_option("--facets", painted_, "painted breaks: NAME-facets.ply of scans")
+        ->type_name("DIR")
+        ->group("Input");
     app.add_option("--out", out_, "folder of the run; goes on with what it holds")
         ->type_name("RUN")
         ->required()
@@ -67,6 +71,7 @@ class BatchCommand final : public Command {
     options_.match.promising_only = !thorough_;
     if (shard_) options_.shard = parse_shard(*shard_);
     if (layout_) options_.layout = read_layout(*layout_, batch::find_scans(inputs_));
+    if (painted_) options_.painted = read_painted(*painted_, inputs_);
     const auto listener = json_ ? make_json_listener(console) : make_console_listener(console);
     const auto begin = std::chrono::steady_clock::now();
     const batch::Summary summary = batch::run(inputs_, out_, options_, *listener, context);
@@ -112,6 +117,7 @@ class BatchCommand final : public Command {
   std::string inputs_;
   std::string out_;
   std::optional<std::string> layout_;
+  std::optional<std::string> painted_;
   std::optional<std::string> shard_;
   bool json_ = false;
   bool thorough_ = false;

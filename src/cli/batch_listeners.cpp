@@ -25,7 +25,8 @@ class WarningListener : public batch::Listener {
           "the run was made with other parameters or by another version or build; its pairs are done again");
     }
     for (const std::string& name : forgotten.fragments) {
-      console_.warning(fmt::format("{}: has changed or is gone; its pairs are done again or dropped", name));
+      console_.warning(fmt::format(
+          "{}: has changed, or is painted otherwise, or is gone; its pairs are done again or dropped", name));
     }
     if (forgotten.laid_pairs > 0) {
       console_.warning(

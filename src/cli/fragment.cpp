@@ -2,15 +2,16 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
+#include <filesystem>
 #include <map>
 
+#include "batch/inputs.hpp"
+#include "cli/command.hpp"
 #include "cli/interrupt.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
-#include "core/words.hpp"
+#include "match/paint.hpp"
 #include "mesh/load.hpp"
-#include "mesh/painted_facets.hpp"
 
 namespace rejoin::cli {
 namespace {
@@ -60,26 +61,15 @@ void use_painted_facets(const std::vector<std::string>& files, const std::vector
   std::map<const match::Fragment*, std::string> painted_by;
   for (const std::string& file : files) {
     const mesh::Mesh painted = load_scan(file, console, mesh::Weld::PlacesAndColours).mesh;
-    if (painted.is_cloud() || painted.colours.empty()) {
-      throw InputError(file, painted.is_cloud() ? "has no faces" : "has no colours",
-                       "paint the file that rejoin facets SCAN --ply writes");
-    }
     bool used = false;
     for (match::Fragment* fragment : fragments) {
-      auto facets = mesh::painted_facets(fragment->facets, fragment->surface.origin, painted);
-      if (!facets) continue;
+      const auto told = match::paint(*fragment, file, painted);
+      if (!told) continue;
       const auto [earlier, first] = painted_by.emplace(fragment, file);
       if (!first) {
         throw InputError(file, "lies on the same scan as " + earlier->second, "give one painted file a scan");
       }
-      if (std::ranges::none_of(facets->segmentation.facets, &mesh::Facet::fracture)) {
-        throw InputError(file, "has no break painted", "give every break a colour; grey is original surface");
-      }
-      if (facets->left_out > 0) {
-        console.warning(fmt::format("{}: {} on too little of the surface to be a facet, left out", file,
-                                    counted(facets->left_out, "colour")));
-      }
-      fragment->facets = std::move(facets->segmentation);
+      for (const std::string& warning : *told) console.warning(warning);
       used = true;
     }
     if (!used) {
@@ -87,6 +77,15 @@ void use_painted_facets(const std::vector<std::string>& files, const std::vector
                        "paint the file that rejoin facets SCAN --ply writes, and do not move it");
     }
   }
+}
+
+batch::Painted read_painted(const std::string& folder, const std::string& scans) {
+  std::error_code absent;
+  if (std::filesystem::equivalent(folder, scans, absent)) {
+    throw UsageError("--facets", "names the folder of the scans, where painted surfaces are taken for scans",
+                     "move them to a folder of their own");
+  }
+  return batch::find_painted(folder, batch::find_scans(scans));
 }
 
 }  // namespace rejoin::cli

@@ -333,8 +333,11 @@ void add_parameters(report::RunReport& report, const store::Run& run, const std:
                        {"--seed", std::to_string(parameters.seed)}};
   const std::vector<store::Fragment> fragments = run.fragments();
   const auto laid = std::ranges::count_if(fragments, [](const auto& f) { return !f.pose.empty(); });
+  const auto painted = std::ranges::count_if(fragments, [](const auto& f) { return !f.facets.empty(); });
   if (laid > 0)
     report.parameters.emplace_back("--layout", fmt::format("lays {} of {} scans", laid, fragments.size()));
+  if (painted > 0)
+    report.parameters.emplace_back("--facets", fmt::format("of {} of {} scans", painted, fragments.size()));
   const ordered_json json = ordered_json::parse(parameters.json, nullptr, false);
   if (!json.is_object()) return;
   for (const auto& [name, value] : json.items()) {

@@ -74,6 +74,11 @@ Whole survey(const std::vector<fs::path>& runs) {
                          fmt::format("knows another content of {} than the runs before it", fragment.name),
                          "run the shards again that have the older file");
       }
+      if (known.facets != fragment.facets) {
+        throw StoreError(folder.string(),
+                         fmt::format("has {} painted otherwise than the runs before it", fragment.name),
+                         "run its shard again with the --facets of the others");
+      }
       if (known.pose != fragment.pose) {
         throw StoreError(folder.string(),
                          fmt::format("has {} elsewhere in the layout than the runs before it", fragment.name),

@@ -36,6 +36,7 @@ struct Fragment {
   std::string hash;     ///< of the file's content, hexadecimal
   std::string
       pose;  ///< where the user laid it by hand, as text that is the same for the same pose; empty: nowhere
+  std::string facets;  ///< hash of the content of the facets that the user painted on it; empty: none
   std::int64_t faces = 0;
   double diameter =
       0;  ///< mesh units, as the next three; these are 0 where not known (a run of an earlier build), or none

@@ -43,14 +43,15 @@ void write_parameters(SQLite::Database& database, const Parameters& parameters, 
 }
 
 void add_fragment(SQLite::Database& database, const Fragment& fragment) {
-  SQLite::Statement row(
-      database,
-      "INSERT INTO fragment (name, path, hash, faces, diameter, state, error, spacing, noise, wall, pose) "
-      "VALUES (?, ?, ?, 0, 0, 'waiting', '', 0, 0, 0, ?)");
+  SQLite::Statement row(database,
+                        "INSERT INTO fragment (name, path, hash, faces, diameter, state, error, spacing, "
+                        "noise, wall, pose, facets) "
+                        "VALUES (?, ?, ?, 0, 0, 'waiting', '', 0, 0, 0, ?, ?)");
   row.bind(1, fragment.name);
   row.bind(2, fragment.path);
   row.bind(3, fragment.hash);
   row.bind(4, fragment.pose);
+  row.bind(5, fragment.facets);
   row.exec();
 }
 
@@ -157,7 +158,7 @@ std::vector<std::string> forget_changed(SQLite::Database& database, std::map<std
   std::vector<std::string> names;
   for (const Fragment& known : detail::all_fragments(database)) {
     const auto same = wanted.find(known.name);
-    if (same == wanted.end() || same->second.hash != known.hash) {
+    if (same == wanted.end() || same->second.hash != known.hash || same->second.facets != known.facets) {
       remove_fragment(database, known.id);
       names.push_back(known.name);
       continue;

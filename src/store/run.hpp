@@ -71,9 +71,9 @@ class Run {
   };
 
   /// Makes the database one of these parameters and fragments: results that do not belong to them are removed, those that do
-  /// stay.  A fragment is the same if its name and hash are; its path is brought up to date.  Pairs of copies() do not belong.
+  /// stay.  A fragment is the same if its name, hash and facets are; its path is brought up to date.  Pairs of copies() do not belong.
   /// Where poses changed, the pairs go whose fragments both have one, or had.
-  /// \param fragments  name, path, hash and pose are used
+  /// \param fragments  name, path, hash, pose and facets are used
   /// \param shard      as shard() tells it
   /// \throws StoreError also if the database has pairs of another shard, or of other scans or contents altogether, for they
   ///         would be lost

@@ -81,19 +81,6 @@ class BatchLayout : public ::testing::Test {
     return run(words);
   }
 
-  /// Whether some pose of a7.ply and b7.ply is turned as the true one.
-  static bool has_the_join(const std::string& run) {
-    SQLite::Database database(run + "/run.sqlite", SQLite::OPEN_READONLY);
-    SQLite::Statement poses(
-        database,
-        "SELECT m11 FROM candidate c JOIN fragment x ON x.id = c.a JOIN fragment y ON y.id = c.b "
-        "WHERE x.name = 'a7.ply' AND y.name = 'b7.ply'");
-    const double truth = match::testing::planted_pair(7, kCells).truth.rotation[0][0];
-    bool found = false;
-    while (poses.executeStep()) found = found || std::abs(poses.getColumn(0).getDouble() - truth) < 0.02;
-    return found;
-  }
-
   static TemporaryFolder* home_;
   const TemporaryFolder folder_;
   const std::string run_ = folder_ / "run";

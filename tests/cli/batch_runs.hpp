@@ -3,6 +3,7 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -40,7 +41,7 @@ inline std::string content(const std::string& run) {
     }
   };
   dump("SELECT version, parameters, seed FROM run");
-  dump("SELECT id, name, hash, faces, diameter, state, error, pose FROM fragment ORDER BY id");
+  dump("SELECT id, name, hash, faces, diameter, state, error, pose, facets FROM fragment ORDER BY id");
   dump("SELECT a, b, stage, evidence, score, verdict, error, result FROM pair ORDER BY a, b");
   dump("SELECT * FROM candidate ORDER BY a, b, rank");
   return text.str();
@@ -53,6 +54,19 @@ inline std::vector<std::string> stages_in(const std::string& run) {
   std::vector<std::string> list;
   while (rows.executeStep()) list.push_back(rows.getColumn(0).getString());
   return list;
+}
+
+/// Whether some pose of a7.ply and b7.ply is turned as the true one.
+inline bool has_the_join(const std::string& run) {
+  SQLite::Database database(run + "/run.sqlite", SQLite::OPEN_READONLY);
+  SQLite::Statement poses(
+      database,
+      "SELECT m11 FROM candidate c JOIN fragment x ON x.id = c.a JOIN fragment y ON y.id = c.b "
+      "WHERE x.name = 'a7.ply' AND y.name = 'b7.ply'");
+  const double truth = match::testing::planted_pair(7, kCells).truth.rotation[0][0];
+  bool found = false;
+  while (poses.executeStep()) found = found || std::abs(poses.getColumn(0).getDouble() - truth) < 0.02;
+  return found;
 }
 
 }  // namespace rejoin::cli::testing

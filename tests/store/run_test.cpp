@@ -156,6 +156,19 @@ TEST_F(RunTest, ChangedFragmentLosesItsPairsAlone) {
   EXPECT_EQ(run.fragments()[2].path, "elsewhere/c.ply");
 }
 
+TEST_F(RunTest, FragmentPaintedOtherwiseLosesItsPairsAlone) {
+  make_run();
+  store::Run run = store::Run::write(folder_);
+  run.save(pair_of(run.fragments(), 1, 2), {candidate_});
+  std::vector<Fragment> painted = three_;
+  painted[1].facets = "paint";  // a.ply
+  EXPECT_EQ(run.begin(kParameters, painted).fragments, (std::vector<std::string>{"a.ply"}));
+  ASSERT_EQ(run.pairs().size(), 1U);
+  EXPECT_EQ(run.pairs()[0].name_a, "b.ply");
+  EXPECT_EQ(run.fragments()[0].facets, "paint");
+  EXPECT_TRUE(run.begin(kParameters, painted).fragments.empty());
+}
+
 TEST_F(RunTest, CopyOfAnotherHasNoPairs) {
   make_run();  // with the pair of a.ply and b.ply
   std::vector<Fragment> list = three_;
@@ -324,7 +337,7 @@ TEST_F(RunTest, EarlierSchemaIsReadAndBroughtUpToDateWhenWritten) {
         .exec(
             "ALTER TABLE fragment DROP COLUMN spacing; ALTER TABLE fragment DROP COLUMN noise; "
             "ALTER TABLE fragment DROP COLUMN wall; ALTER TABLE fragment DROP COLUMN pose; "
-            "PRAGMA user_version = 1");
+            "ALTER TABLE fragment DROP COLUMN facets; PRAGMA user_version = 1");
   };
   as_written_earlier();
   EXPECT_EQ(store::Run::open(folder_).fragments().at(0).wall, 0);
@@ -351,7 +364,9 @@ TEST_F(RunTest, PairsOfAnEarlierSchemaStayWithTheirPosesAndNewOnesMayBeApart) {
     SQLite::Statement change(database, "UPDATE sqlite_master SET sql = ? WHERE name = 'pair'");
     change.bind(1, pairs.erase(apart, std::string("'apart', ").size()));
     change.exec();
-    database.exec("ALTER TABLE fragment DROP COLUMN pose; PRAGMA user_version = 2");
+    database.exec(
+        "ALTER TABLE fragment DROP COLUMN pose; ALTER TABLE fragment DROP COLUMN facets; "
+        "PRAGMA user_version = 2");
   }
   EXPECT_EQ(store::Run::open(folder_).fragments().at(0).pose, "");
   {

@@ -88,6 +88,7 @@ Fragment fragment_from(SQLite::Statement& row) {
   fragment.noise = row.getColumn(9).getDouble();
   fragment.wall = row.getColumn(10).getDouble();
   fragment.pose = row.getColumn(11).getString();
+  fragment.facets = row.getColumn(12).getString();
   return fragment;
 }
 
@@ -96,7 +97,7 @@ std::vector<Fragment> all_fragments(SQLite::Database& database) {
                          fmt::format("SELECT id, name, path, hash, faces, diameter, state, error, {}, {} "
                                      "FROM fragment ORDER BY name",
                                      has_lengths(database) ? "spacing, noise, wall" : "0, 0, 0",
-                                     has_poses(database) ? "pose" : "''"));
+                                     has_hints(database) ? "pose, facets" : "'', ''"));
   std::vector<Fragment> list;
   while (rows.executeStep()) list.push_back(fragment_from(rows));
   return list;

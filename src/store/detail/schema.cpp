@@ -33,7 +33,8 @@ CREATE TABLE fragment (
   spacing REAL NOT NULL DEFAULT 0,
   noise REAL NOT NULL DEFAULT 0,
   wall REAL NOT NULL DEFAULT 0,
-  pose TEXT NOT NULL DEFAULT ''
+  pose TEXT NOT NULL DEFAULT '',
+  facets TEXT NOT NULL DEFAULT ''
 );
 INSERT INTO run VALUES (1, '', '{}', 1, '');
 )sql";
@@ -92,8 +93,9 @@ ALTER TABLE fragment ADD COLUMN wall REAL NOT NULL DEFAULT 0;
 )sql";
 
 /// From schema 2 to 3.
-std::string add_poses() {
-  return "ALTER TABLE fragment ADD COLUMN pose TEXT NOT NULL DEFAULT ''; DROP VIEW ranked;" +
+std::string add_hints() {
+  return "ALTER TABLE fragment ADD COLUMN pose TEXT NOT NULL DEFAULT '';"
+         "ALTER TABLE fragment ADD COLUMN facets TEXT NOT NULL DEFAULT ''; DROP VIEW ranked;" +
          fmt::format(kPairs, "pair_with_apart") +
          "INSERT INTO pair_with_apart SELECT * FROM pair; DROP TABLE pair;"
          "ALTER TABLE pair_with_apart RENAME TO pair;" +
@@ -160,7 +162,7 @@ void require_schema(SQLite::Database& database, const std::string& path) {
 void bring_up_to_date(SQLite::Database& database) {
   SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
   if (!has_lengths(database)) database.exec(kAddLengths);
-  if (!has_poses(database)) database.exec(add_poses());
+  if (!has_hints(database)) database.exec(add_hints());
   database.exec(fmt::format("PRAGMA user_version = {}", kSchemaVersion));
   transaction.commit();
 }
@@ -169,7 +171,7 @@ bool has_lengths(SQLite::Database& database) {
   return pragma(database, "user_version") >= 2;
 }
 
-bool has_poses(SQLite::Database& database) {
+bool has_hints(SQLite::Database& database) {
   return pragma(database, "user_version") >= 3;
 }
 

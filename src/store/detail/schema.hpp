@@ -29,8 +29,8 @@ void bring_up_to_date(SQLite::Database& database);
 /// Whether fragments have spacing, noise and wall, as from schema 2 on.
 bool has_lengths(SQLite::Database& database);
 
-/// Whether fragments have a pose, and pairs may be apart, as from schema 3 on.
-bool has_poses(SQLite::Database& database);
+/// Whether fragments have what the user knows of them, pose and facets, and pairs may be apart, as from schema 3 on.
+bool has_hints(SQLite::Database& database);
 
 /// The database of a run's folder, or the file itself.
 std::filesystem::path database_file(const std::filesystem::path& folder);
