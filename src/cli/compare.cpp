@@ -4,6 +4,8 @@
 #include <fmt/core.h>
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
@@ -27,6 +29,11 @@ class CompareCommand final : public Command {
         ->type_name("FILE")
         ->required()
         ->group("Input");
+    app.add_option("--facets", painted_, "facets painted on A or B, may be repeated")
+        ->type_name("FILE")
+        ->expected(1)
+        ->take_all()
+        ->group("Input");
     app.add_option("--json", json_, "write all figures")->type_name("FILE")->group("Output");
     app.add_option("--out", out_, "write compare.png and compare.json")->type_name("DIR")->group("Output");
     app.option_defaults()->group("Measurement");
@@ -41,8 +48,9 @@ class CompareCommand final : public Command {
     if (json_) require_writable_file(*json_);
     if (out_) require_writable_folder(*out_);
     const Rigid pose = read_pose(pose_);
-    const match::Fragment a = load_fragment(path_a_, console, context);
-    const match::Fragment b = load_fragment(path_b_, console, context);
+    match::Fragment a = load_fragment(path_a_, console, context);
+    match::Fragment b = load_fragment(path_b_, console, context);
+    use_painted_facets(painted_, {&a, &b}, console);
     const match::Comparison comparison = match::compare(a, b, pose, options_, context);
     console.end_progress();
     if (context.cancelled()) {
@@ -64,6 +72,7 @@ class CompareCommand final : public Command {
   std::string path_a_;
   std::string path_b_;
   std::string pose_;
+  std::vector<std::string> painted_;
   std::optional<std::string> json_;
   std::optional<std::string> out_;
   match::CompareOptions options_;

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "match/gap.hpp"
+#include "match/judge.hpp"
 
 namespace rejoin::match {
 namespace {
@@ -122,6 +123,7 @@ Comparison compare(const Fragment& a, const Fragment& b, const Rigid& pose, cons
   check(options);
   Comparison result;
   result.resolution = options.resolution;
+  result.joint = judge(a, b, pose);
   result.view = view_of_pose(a, b, pose);
   const auto make = [&](zbuffer::Backend backend, const mesh::Mesh& first, const mesh::Mesh& second) {
     return zbuffer::make_scorer(backend, first, second,

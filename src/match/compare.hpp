@@ -1,5 +1,5 @@
-/// How far the fast error (rasterised, simplified meshes) is from the slow one (ray-cast, full meshes), and
-/// why.
+/// What a pose is worth, and how far its fast error (rasterised, simplified meshes) is from the slow one (ray-cast, full
+/// meshes), and why.
 #pragma once
 
 #include <array>
@@ -51,6 +51,7 @@ struct ErrorAgreement {
 };
 
 struct Comparison {
+  Candidate joint;  ///< the given pose as judge() has it
   PoseView view;
   int resolution = 0;
   std::string renderer;  ///< of the drawing backend

@@ -61,6 +61,14 @@ ordered_json agreement_json(const match::ErrorAgreement& agreement) {
           {"correlation", agreement.correlation}};
 }
 
+/// As rejoin match's JSON has them; infinite values become null.
+ordered_json joint_json(const match::Candidate& joint) {
+  return {{"score", joint.score},
+          {"contact_area", joint.error.contact_area},
+          {"gap_median", joint.error.gap_median},
+          {"penetration", joint.error.penetration}};
+}
+
 std::string score_line(const char* name, const PairScore& score, int resolution) {
   return fmt::format("  {:<28}{:>12}{:>12}{:>12}{:>12}{:>12}\n", name,
                      short_number(static_cast<double>(score.error) * resolution), short_number(score.error),
@@ -92,8 +100,13 @@ std::string agreement_line(const char* name, const match::ErrorAgreement& agreem
 
 std::string compare_table(const Comparison& comparison) {
   const int n = comparison.resolution;
-  std::string text =
-      fmt::format("slope difference of the whole fragments at the pose, {} x {} pixels\n", n, n);
+  const match::JointError& joint = comparison.joint.error;
+  std::string text = fmt::format(
+      "joint at the pose as it stands: score {:.3f}, contact area {}, median gap {}, penetration {} "
+      "(in the scans' unit)\n\n",
+      comparison.joint.score, short_number(joint.contact_area), short_number(joint.gap_median),
+      short_number(joint.penetration));
+  text += fmt::format("slope difference of the whole fragments at the pose, {} x {} pixels\n", n, n);
   text += fmt::format("  {:<28}{:>12}{:>12}{:>12}{:>12}{:>12}\n", "", "slope", "depth", "overlap", "A covers",
                       "B covers");
   text += score_line("drawn, coarse", comparison.pose.drawn, n);
@@ -123,6 +136,7 @@ std::string compare_json(const Comparison& comparison, const std::string& path_a
                              {"view_side", comparison.view.view_side},
                              {"renderer", comparison.renderer},
                              {"reference", comparison.caster},
+                             {"joint", joint_json(comparison.joint)},
                              {"pose", pose_json(pose, n)},
                              {"explained",
                               {{"total", slope(pose.drawn) - slope(pose.cast_full)},

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "mesh/load.hpp"
 #include "planted_files.hpp"
 
 namespace rejoin::cli::testing {
@@ -47,6 +48,49 @@ TEST_F(CompareCommand, BothErrorsAreSmallAtThePlantedPoseAndAgree) {
   EXPECT_FALSE(read_file(folder / "out/compare.png").empty());
   for (const std::string& file : {json, folder / "out/compare.json", folder / "out/compare.png"})
     EXPECT_NE(finished.out.find("wrote " + file + "\n"), std::string::npos) << finished.out;
+}
+
+TEST_F(CompareCommand, TellsWhatMatchTellsOfItsPoseAndLeavesARoughOneWhereItIs) {
+  ASSERT_EQ(run({"match", a, b, "--json", folder / "match.json"}).exit_code, 0);
+  const ordered_json match = ordered_json::parse(read_file(folder / "match.json"));
+  const auto joint_at = [&](const std::string& pose) {
+    EXPECT_EQ(run({"compare", a, b, "--pose", pose, "--json", json, "--steps", "0"}).exit_code, 0);
+    return ordered_json::parse(read_file(json))["joint"];
+  };
+  const ordered_json found = joint_at(folder / "match.json");
+  for (const char* figure : {"contact_area", "gap_median", "penetration"}) {
+    const double told = match["error"][figure];
+    EXPECT_NEAR(found[figure].get<double>(), told, 1e-3 * told) << figure;
+  }
+  EXPECT_GE(found["score"].get<double>(), match["score"].get<double>() - 1e-9);
+
+  ordered_json lifted = match["pose"];
+  for (int row = 0; row < 3; ++row)
+    lifted[row][3] = lifted[row][3].get<double>() + 4.0 * pair.direction_a[row];
+  write_file(folder / "lifted.json", ordered_json({{"pose", lifted}}).dump());
+  const ordered_json rough = joint_at(folder / "lifted.json");
+  EXPECT_LT(rough["contact_area"].get<double>(), 0.05 * found["contact_area"].get<double>());
+  EXPECT_LT(rough["score"].get<double>(), 0.01);
+}
+
+TEST_F(CompareCommand, JudgesByPaintedBreaks) {
+  const std::string paint = folder / "paint.ply";
+  ASSERT_EQ(run({"facets", b, "--ply", paint}).exit_code, 0);
+  mesh::Mesh painted = mesh::load(paint, mesh::Weld::PlacesAndColours).mesh;
+  for (std::size_t v = 0; v < painted.vertices.size(); ++v) {
+    const glm::dvec3 in_block = inverse(pair.to_b)(painted.origin + glm::dvec3(painted.vertices[v]));
+    painted.colours[v] =
+        in_block.z < 0.7 * match::testing::kHalfZ ? glm::u8vec3(190) : glm::u8vec3(250, 20, 20);
+  }
+  mesh::save(paint, painted);
+  const auto contact = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"compare", a, b, "--pose", pose_file(1), "--json", json, "--steps", "0"};
+    words.insert(words.end(), more.begin(), more.end());
+    EXPECT_EQ(run(words).exit_code, 0);
+    return ordered_json::parse(read_file(json))["joint"]["contact_area"].get<double>();
+  };
+  EXPECT_GT(contact({}), 1000.0);
+  EXPECT_LT(contact({"--facets", paint}), 100.0) << "the back is the break";
 }
 
 TEST_F(CompareCommand, InterruptedWritesNoFigures) {
