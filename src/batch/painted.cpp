@@ -71,7 +71,7 @@ Painted find_painted(const fs::path& folder, const std::vector<std::string>& sca
 }
 
 std::string keep_painted(const fs::path& file, const fs::path& cache) {
-  const std::string hash = content_hash(file);
+  std::string hash = content_hash(file);
   const fs::path kept = kept_file(hash, cache);
   if (hash_if_readable(kept) == hash) return hash;
   const std::string content = read_file(file);

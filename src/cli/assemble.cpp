@@ -14,9 +14,8 @@
 #include "cli/assemble_files.hpp"
 #include "cli/assemble_input.hpp"
 #include "cli/command.hpp"
-#include "cli/fragment.hpp"
+#include "cli/hints.hpp"
 #include "cli/interrupt.hpp"
-#include "cli/layout.hpp"
 #include "core/files.hpp"
 #include "core/words.hpp"
 #include "store/run.hpp"
@@ -53,12 +52,7 @@ class AssembleCommand final : public Command {
     app.add_option("--constraints", constraints_, "JSON: pairs that must or must not join, poses")
         ->type_name("FILE")
         ->group("Input");
-    app.add_option("--layout", layout_, "scans laid together by hand, as of rejoin batch")
-        ->type_name("FILE")
-        ->group("Input");
-    app.add_option("--facets", painted_, "painted breaks, as of rejoin batch")
-        ->type_name("DIR")
-        ->group("Input");
+    hints_.define(app);
     app.add_option("--json", json_, "poses and joins here too, not only in the run")
         ->type_name("FILE")
         ->group("Output");
@@ -84,8 +78,7 @@ class AssembleCommand final : public Command {
       constraints = open_constraints(*constraints_);
       read_constraints(*constraints, names_in(input_));  // before hours of matching
     }
-    if (layout_) matching.layout = read_layout(*layout_, names_in(input_));
-    if (painted_) matching.painted = read_painted(*painted_, input_);
+    hints_.read_into(matching, input_);
     const AssembleInput input = read_assemble_input(input_, keep, matching, console, context);
     if (context.cancelled()) return stopped(console);
     if (constraints) options_.constraints = read_constraints(*constraints, input.names, input.bad);
@@ -125,8 +118,8 @@ class AssembleCommand final : public Command {
       throw UsageError(input_, "is no run, so nothing would be kept of its assembly",
                        "add --out DIR for all of it, or --json FILE for the poses alone");
     }
-    if ((layout_ || painted_) && is_run(input_)) {
-      throw UsageError(layout_ ? "--layout" : "--facets", "serves a folder of scans, this is a run",
+    if (hints_.given() != nullptr && is_run(input_)) {
+      throw UsageError(hints_.given(), "serves a folder of scans, this is a run",
                        "give it to rejoin batch, or leave it out");
     }
     if (json_) require_writable_file(*json_);
@@ -164,10 +157,9 @@ class AssembleCommand final : public Command {
 
   std::string input_;
   std::optional<std::string> constraints_;
-  std::optional<std::string> layout_;
-  std::optional<std::string> painted_;
   std::optional<std::string> json_;
   std::optional<std::string> out_;
+  Hints hints_;
   assembly::Options options_;
 };
 

@@ -10,13 +10,11 @@
 #include <optional>
 #include <string>
 
-#include "batch/inputs.hpp"
 #include "batch/table.hpp"
 #include "cli/arguments.hpp"
 #include "cli/batch_listeners.hpp"
 #include "cli/command.hpp"
-#include "cli/fragment.hpp"
-#include "cli/layout.hpp"
+#include "cli/hints.hpp"
 #include "core/words.hpp"
 
 namespace rejoin::cli {
@@ -43,15 +41,10 @@ batch::Shard parse_shard(const std::string& text) {
 class BatchCommand final : public Command {
  public:
   void define(CLI::App& app) override {
-    app.add_option("DIR", inputs_, "folder of scans: ply, obj, stl, off, gltf, glb, drc, xyz or pts")
+    app.add_option("DIR", inputs_, "folder of scans (ply obj stl off gltf glb drc xyz pts)")
         ->required()
         ->group("Input");
-    app.add_option("--layout", layout_, "scans laid together by hand: MeshLab project, JSON")
-        ->type_name("FILE")
-        ->group("Input");
-    app.add_option("--facets", painted_, "painted breaks: NAME-facets.ply of scans")
-        ->type_name("DIR")
-        ->group("Input");
+    hints_.define(app);
     app.add_option("--out", out_, "folder of the run; goes on with what it holds")
         ->type_name("RUN")
         ->required()
@@ -70,8 +63,7 @@ class BatchCommand final : public Command {
   ExitCode run(Console& console, Context& context) override {
     options_.match.promising_only = !thorough_;
     if (shard_) options_.shard = parse_shard(*shard_);
-    if (layout_) options_.layout = read_layout(*layout_, batch::find_scans(inputs_));
-    if (painted_) options_.painted = read_painted(*painted_, inputs_);
+    hints_.read_into(options_, inputs_);
     const auto listener = json_ ? make_json_listener(console) : make_console_listener(console);
     const auto begin = std::chrono::steady_clock::now();
     const batch::Summary summary = batch::run(inputs_, out_, options_, *listener, context);
@@ -116,11 +108,10 @@ class BatchCommand final : public Command {
 
   std::string inputs_;
   std::string out_;
-  std::optional<std::string> layout_;
-  std::optional<std::string> painted_;
   std::optional<std::string> shard_;
   bool json_ = false;
   bool thorough_ = false;
+  Hints hints_;
   batch::Options options_;
 };
 

@@ -2,11 +2,8 @@
 
 #include <fmt/core.h>
 
-#include <filesystem>
 #include <map>
 
-#include "batch/inputs.hpp"
-#include "cli/command.hpp"
 #include "cli/interrupt.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -77,15 +74,6 @@ void use_painted_facets(const std::vector<std::string>& files, const std::vector
                        "paint the file that rejoin facets SCAN --ply writes, and do not move it");
     }
   }
-}
-
-batch::Painted read_painted(const std::string& folder, const std::string& scans) {
-  std::error_code absent;
-  if (std::filesystem::equivalent(folder, scans, absent)) {
-    throw UsageError("--facets", "names the folder of the scans, where painted surfaces are taken for scans",
-                     "move them to a folder of their own");
-  }
-  return batch::find_painted(folder, batch::find_scans(scans));
 }
 
 }  // namespace rejoin::cli

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "batch/painted.hpp"
 #include "cli/console.hpp"
 #include "core/context.hpp"
 #include "match/match.hpp"
@@ -19,9 +18,5 @@ match::Fragment load_fragment(const std::string& path, Console& console, const C
 /// \throws IoError, InputError as mesh::load(); it has no colours or lies on no fragment
 void use_painted_facets(const std::vector<std::string>& files, const std::vector<match::Fragment*>& fragments,
                         Console& console);
-
-/// The painted surfaces (`--facets DIR`) of the scans in a folder.
-/// \throws IoError, InputError as batch::find_painted()   \throws UsageError both are the same folder
-batch::Painted read_painted(const std::string& folder, const std::string& scans);
 
 }  // namespace rejoin::cli

@@ -51,7 +51,7 @@ Entry add_command(CLI::App& root, const char* name, const char* description,
 std::vector<Entry> add_commands(CLI::App& root) {
   std::vector<Entry> entries;
   entries.push_back(add_command(root, "match", "Find the pose at which B joins A.", make_match_command()));
-  entries.push_back(add_command(root, "compare", "Judge a pose as it stands; check its error by ray casting.",
+  entries.push_back(add_command(root, "compare", "Tell a pose's score; check its error by ray casting.",
                                 make_compare_command()));
   entries.push_back(
       add_command(root, "facets", "Show the surfaces along which A may join.", make_facets_command()));

@@ -102,8 +102,8 @@ std::string compare_table(const Comparison& comparison) {
   const int n = comparison.resolution;
   const match::JointError& joint = comparison.joint.error;
   std::string text = fmt::format(
-      "joint at the pose as it stands: score {:.3f}, contact area {}, median gap {}, penetration {} "
-      "(in the scans' unit)\n\n",
+      "joint at the pose as it stands, in the scans' unit\n"
+      "  score {:.3f}, contact area {}, median gap {}, penetration {}\n\n",
       comparison.joint.score, short_number(joint.contact_area), short_number(joint.gap_median),
       short_number(joint.penetration));
   text += fmt::format("slope difference of the whole fragments at the pose, {} x {} pixels\n", n, n);

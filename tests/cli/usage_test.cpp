@@ -202,8 +202,8 @@ TEST_P(HelpTest, FitsAScreen) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Commands, HelpTest,
-                         ::testing::Values("", "match", "compare", "facets", "assemble", "shatter", "split",
-                                           "info", "bench"),
+                         ::testing::Values("", "match", "compare", "facets", "assemble", "batch", "shatter",
+                                           "split", "info", "bench"),
                          [](const auto& info) { return *info.param ? std::string(info.param) : "Root"; });
 
 TEST(Help, OfACommandWithinACommandNamesTheProgram) {

@@ -1,0 +1,32 @@
+#include "cli/hints.hpp"
+
+#include <filesystem>
+#include <system_error>
+
+#include "batch/inputs.hpp"
+#include "cli/command.hpp"
+#include "cli/layout.hpp"
+
+namespace rejoin::cli {
+
+void Hints::define(CLI::App& app) {
+  app.add_option("--layout", layout_, "scans laid together by hand: MeshLab project, JSON")
+      ->type_name("FILE")
+      ->group("Input");
+  app.add_option("--facets", painted_, "painted breaks: NAME-facets.ply of scans")
+      ->type_name("DIR")
+      ->group("Input");
+}
+
+void Hints::read_into(batch::Options& options, const std::string& scans) const {
+  if (layout_) options.layout = read_layout(*layout_, batch::find_scans(scans));
+  if (!painted_) return;
+  std::error_code absent;
+  if (std::filesystem::equivalent(*painted_, scans, absent)) {
+    throw UsageError("--facets", "names the folder of the scans, where painted surfaces are taken for scans",
+                     "move them to a folder of their own");
+  }
+  options.painted = batch::find_painted(*painted_, batch::find_scans(scans));
+}
+
+}  // namespace rejoin::cli
