@@ -34,8 +34,9 @@ double pitch_for(const FacetPatch& a, const FacetPatch& b) {
 
 std::vector<double> turns_for(const FacetPatch& a, const FacetPatch& b, double step) {
   if (are_strips(a, b)) return turns_along(a, b, step);
-  std::vector<double> turns;
   const int count = static_cast<int>(std::ceil(2.0 * kPi / step));
+  std::vector<double> turns;
+  turns.reserve(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k) turns.push_back(2.0 * kPi * k / count);
   return turns;
 }

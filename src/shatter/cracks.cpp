@@ -58,7 +58,7 @@ std::size_t Cracks::piece_seen_at(const glm::dvec3& bent_point, int next) const 
     const Branch& branch = branches_[static_cast<std::size_t>(next)];
     next = branch.next[branch.crack.distance(bent_point) < 0.0 ? 0 : 1];
   }
-  return static_cast<std::size_t>(~next);
+  return ~static_cast<std::size_t>(next);
 }
 
 std::optional<Cracks> choose_cracks(const Inside& inside, const mesh::Samples& surface,

@@ -49,6 +49,7 @@ std::optional<Cells> choose_cells(const mesh::Samples& samples, const glm::dvec3
   for (int draw = 0; draw < kDraws && least_lost > 0; ++draw) {
     Cells cells(spread_sites(samples, origin, count, random), warp);
     std::vector<std::size_t> label;
+    label.reserve(bent.size());
     for (const glm::dvec3& point : bent) label.push_back(cells.piece_seen_at(point));
     const Parts parts = parts_of(label, count, links);
     if (*std::min_element(parts.largest.begin(), parts.largest.end()) == 0) continue;
