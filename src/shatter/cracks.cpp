@@ -43,12 +43,14 @@ void Cracks::add(std::size_t piece, const Crack& crack) {
 Walls Cracks::walls(const glm::dvec3& point, std::size_t piece) const {
   const glm::dvec3 seen = bent(point);
   Walls result;
+  int other_side = 0;
   for (const auto& [number, side] : paths_[piece]) {
     const Branch& branch = branches_[static_cast<std::size_t>(number)];
     const double distance = branch.crack.distance(seen);
     if (result.add(side == 0 ? distance : -distance))
-      result.behind = static_cast<int>(piece_seen_at(seen, branch.next[static_cast<std::size_t>(1 - side)]));
+      other_side = branch.next[static_cast<std::size_t>(1 - side)];
   }
+  if (!paths_[piece].empty()) result.behind = static_cast<int>(piece_seen_at(seen, other_side));
   return result;
 }
 
@@ -64,6 +66,7 @@ std::size_t Cracks::piece_seen_at(const glm::dvec3& bent_point, int next) const 
 std::optional<Cracks> choose_cracks(const Inside& inside, const mesh::Samples& surface,
                                     const glm::dvec3& origin, std::size_t count, const Noise& warp,
                                     std::uint64_t seed) {
+  if (inside.points.empty()) return std::nullopt;
   Cracks cracks(warp);
   const Links links = links_within(inside.points, kLinked * inside.spacing);
   const mesh::PointIndex skin(surface.points);

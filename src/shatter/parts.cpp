@@ -1,5 +1,7 @@
 #include "shatter/parts.hpp"
 
+#include <algorithm>
+
 #include "mesh/neighbours.hpp"
 
 namespace rejoin::shatter {

@@ -46,6 +46,13 @@ TEST(Cracks, ThePieceInsideKeepsItsNumber) {
   EXPECT_EQ(cracks.walls({0, -1, -2}, 0).behind, 2);
 }
 
+TEST(Cracks, ThereAreNoneWhereNothingLiesInside) {
+  mesh::Samples skin;
+  skin.points = {{0, 0, 0}};
+  skin.normals = {{0, 0, 1}};
+  EXPECT_FALSE(choose_cracks({}, skin, {}, 2, Noise{}, 1));
+}
+
 // A hollow ball: every sherd is one body with both walls, and all together are the ball.
 TEST(Cracks, SherdsOfAVesselAreWholeAndFillIt) {
   mesh::Mesh vessel = mesh::test::icosphere(10.0F, 4);
