@@ -19,7 +19,7 @@ float explained_by(const Sums& s, const CorrelateOptions& options) {
   return 2.0F * cov / (variances + 2.0F * n * options.noise_slope * options.noise_slope);
 }
 
-/// Fills pixels, explained, along, score and tilt.
+/// Fills pixels, explained, along and score.
 /// \param border  the length of the shorter one
 void judge(const Sums& s, float border, const CorrelateOptions& options, Agreement& a) {
   a.pixels = s.n;
@@ -27,7 +27,6 @@ void judge(const Sums& s, float border, const CorrelateOptions& options, Agreeme
   a.along = s.along / (detail::kBorderEnergy * border);
   a.score = std::atanh(std::clamp(a.explained, 0.0F, 0.98F)) * std::sqrt(s.n) +
             options.outline_weight * a.along * std::sqrt(border);
-  a.tilt = glm::vec2(s.u1 - s.u2, s.v1 - s.v2) / s.n;
 }
 
 float shorter_border(const ReliefMap& a, const ReliefMap& b) {

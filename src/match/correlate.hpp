@@ -9,15 +9,14 @@
 
 namespace rejoin::match {
 
-/// How well two reliefs agree at one shift, after the best tilt of one against the other.
+/// How well two reliefs agree at one shift, whatever the tilt of one against the other.
 struct Agreement {
   int shift_u = 0;  ///< pixel (i, j) of the first map lies on pixel (i - shift_u, j - shift_v) of the second
   int shift_v = 0;
-  float pixels = 0;      ///< overlap
-  float explained = 0;   ///< share of the slopes' variance that the other explains, at most 1
-  float along = 0;       ///< share of the shorter border that the other runs along; below 0 where it faces it
-  float score = 0;       ///< how surprising the agreement is
-  glm::vec2 tilt{0.0F};  ///< mean slope of the first less that of the second, over the overlap
+  float pixels = 0;     ///< overlap
+  float explained = 0;  ///< share of the slopes' variance that the other explains, at most 1
+  float along = 0;      ///< share of the shorter border that the other runs along; below 0 where it faces it
+  float score = 0;      ///< how surprising the agreement is
 };
 
 struct CorrelateOptions {

@@ -7,6 +7,9 @@
 namespace rejoin::match {
 namespace {
 
+constexpr double kBend = 0.8;   // share that is taken off: a bend tells less than it is large
+constexpr double kLine = 1e-6;  // of the squared moments: with a smaller determinant an overlap is a line
+
 /// Draws a patch as it lies after `turn` (x, y in plane coordinates, z = height, highest wins).
 ReliefMap draw_relief(const FacetPatch& patch, const glm::mat2& turn, double pitch) {
   glm::vec2 low(std::numeric_limits<float>::max());
@@ -31,6 +34,51 @@ ReliefMap draw_relief(const FacetPatch& patch, const glm::mat2& turn, double pit
   return map;
 }
 
+/// Calls visit(k, u, v) for every pixel that counts.
+template <typename Visit>
+void for_pixels(const ReliefMap& map, const Visit& visit) {
+  for (int j = 0; j < map.height; ++j) {
+    for (int i = 0; i < map.width; ++i) {
+      const std::size_t k =
+          static_cast<std::size_t>(j) * static_cast<std::size_t>(map.width) + static_cast<std::size_t>(i);
+      if (map.mask[k] != 0.0F) visit(k, static_cast<double>(i), static_cast<double>(j));
+    }
+  }
+}
+
+/// Takes most of the slopes of the best quadric off: s + (p x + q y, q x + r y), x and y from the middle, s the mean slope.
+void take_off_bend(ReliefMap& map) {
+  if (map.pixels == 0) return;
+  glm::dvec2 middle(0.0);
+  glm::dvec2 mean(0.0);
+  for_pixels(map, [&](std::size_t k, double i, double j) {
+    middle += glm::dvec2(i, j);
+    mean += glm::dvec2(map.slope_u[k], map.slope_v[k]);
+  });
+  middle /= map.pixels;
+  mean /= map.pixels;
+  double xx = 0.0;
+  double xy = 0.0;
+  double yy = 0.0;
+  glm::dvec3 moments(0.0);
+  for_pixels(map, [&](std::size_t k, double i, double j) {
+    const glm::dvec2 at = glm::dvec2(i, j) - middle;
+    const glm::dvec2 slope = glm::dvec2(map.slope_u[k], map.slope_v[k]) - mean;
+    xx += at.x * at.x;
+    xy += at.x * at.y;
+    yy += at.y * at.y;
+    moments += glm::dvec3(slope.x * at.x, slope.x * at.y + slope.y * at.x, slope.y * at.y);
+  });
+  const double held = 1e-6 * (xx + yy) + 1e-9;  // so that a line of pixels has an answer, too
+  const glm::dmat3 normal(xx + held, xy, 0.0, xy, xx + yy + held, xy, 0.0, xy, yy + held);
+  const glm::dvec3 bend = glm::inverse(normal) * moments;
+  for_pixels(map, [&](std::size_t k, double i, double j) {
+    const glm::dvec2 at = glm::dvec2(i, j) - middle;
+    map.slope_u[k] -= static_cast<float>(kBend * (mean.x + bend.x * at.x + bend.y * at.y));
+    map.slope_v[k] -= static_cast<float>(kBend * (mean.y + bend.y * at.x + bend.z * at.y));
+  });
+}
+
 void take_slopes(ReliefMap& map, float sign) {
   const std::size_t count = map.height_map.size();
   map.slope_u.assign(count, 0.0F);
@@ -50,6 +98,7 @@ void take_slopes(ReliefMap& map, float sign) {
     }
   }
   count_pixels(map);
+  take_off_bend(map);
 }
 
 }  // namespace
@@ -113,6 +162,46 @@ ReliefMap facing_relief_of(const FacetPatch& patch, double pitch, double turn_ra
   ReliefMap map = draw_relief(patch, glm::mat2(-c, -s, -s, c), pitch);
   take_slopes(map, -1.0F);
   return map;
+}
+
+PlaneBetween plane_between(const ReliefMap& fixed, const ReliefMap& facing, int shift_u, int shift_v) {
+  double count = 0.0;
+  glm::dvec2 sum(0.0);
+  double heights = 0.0;
+  double xx = 0.0;
+  double xy = 0.0;
+  double yy = 0.0;
+  glm::dvec2 moments(0.0);
+  for_pixels(fixed, [&](std::size_t k, double i, double j) {
+    const int x = static_cast<int>(i) - shift_u;
+    const int y = static_cast<int>(j) - shift_v;
+    if (x < 0 || y < 0 || x >= facing.width || y >= facing.height) return;
+    const auto q =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(facing.width) + static_cast<std::size_t>(x);
+    if (facing.mask[q] == 0.0F) return;
+    const double height = static_cast<double>(fixed.height_map[k] + facing.height_map[q]);
+    count += 1.0;
+    sum += glm::dvec2(i, j);
+    heights += height;
+    xx += i * i;
+    xy += i * j;
+    yy += j * j;
+    moments += height * glm::dvec2(i, j);
+  });
+  PlaneBetween plane;
+  if (count == 0.0) return plane;
+  const glm::dvec2 mean = sum / count;
+  plane.middle = fixed.low + fixed.pitch * (mean + 0.5);
+  plane.offset = heights / count;
+  xx -= sum.x * mean.x;
+  xy -= sum.x * mean.y;
+  yy -= sum.y * mean.y;
+  moments -= heights * mean;
+  const double determinant = xx * yy - xy * xy;
+  if (determinant <= kLine * (xx + yy) * (xx + yy)) return plane;
+  plane.tilt = glm::dvec2(moments.x * yy - moments.y * xy, moments.y * xx - moments.x * xy) /
+               (determinant * fixed.pitch);
+  return plane;
 }
 
 }  // namespace rejoin::match

@@ -26,14 +26,15 @@ struct FacetPatch {
 FacetPatch cut_patch(const mesh::Mesh& mesh, const std::vector<int>& facet_of_face, const mesh::Cut& cut,
                      int facet);
 
-/// Slopes of a facet's relief on a regular grid.
+/// Slopes of a facet's relief on a regular grid, with little of the bend of the whole facet: breaks that are bent alike would agree
+/// wherever they lie on one another.
 struct ReliefMap {
   int width = 0;
   int height = 0;
   double pitch = 0;               ///< mesh units a pixel
   glm::dvec2 low{0.0};            ///< plane coordinates of pixel (0, 0)'s lower corner
   std::vector<float> height_map;  ///< relief, mesh units, NaN = background
-  std::vector<float> slope_u;     ///< forward differences / pitch; 0 where mask is 0
+  std::vector<float> slope_u;     ///< forward differences / pitch, less 0.8 of a quadric's; 0 where mask is 0
   std::vector<float> slope_v;
   std::vector<float> mask;  ///< 1 where both slopes are known and not steep, else 0
   // Told of the mask by count_pixels():
@@ -56,5 +57,16 @@ ReliefMap relief_of(const FacetPatch& patch, double pitch);
 /// then by `turn_rad` about z, and its slopes are taken of the surface that it turns to its partner. A
 /// perfect partner's map has the same slopes and the same outline.
 ReliefMap facing_relief_of(const FacetPatch& patch, double pitch, double turn_rad);
+
+/// The plane that fits the space between two facing reliefs best: offset + tilt . (p - middle), in the first one's plane coordinates.
+struct PlaneBetween {
+  glm::dvec2 middle{0.0};  ///< of the overlap
+  double offset = 0;       ///< mean sum of both heights, mesh units
+  glm::dvec2 tilt{0.0};    ///< its slopes; 0 where the overlap is a line
+};
+
+/// \param facing  from facing_relief_of()
+/// \param shift_u  pixel (i, j) of `fixed` lies on pixel (i - shift_u, j - shift_v) of `facing`
+PlaneBetween plane_between(const ReliefMap& fixed, const ReliefMap& facing, int shift_u, int shift_v);
 
 }  // namespace rejoin::match

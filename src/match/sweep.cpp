@@ -13,11 +13,13 @@ namespace rejoin::match {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kAcross = 5.0;  // pixels across a strip, at least
-constexpr double kSide = 18.0;   // pixels in the root of a facet's area, at least
-constexpr double kMost = 512.0;  // pixels in the root of the larger map, at most: else maps take gigabytes
-constexpr double kFinest = 0.7;  // of the scans' resolution: below it there is nothing to see
-constexpr double kCoarse = 1.6;  // pixels of a first look at plates against those of the second,
+constexpr double kAcross = 5.0;   // pixels across a strip, at least
+constexpr double kSide = 18.0;    // pixels in the root of a facet's area, at least
+constexpr double kLarger = 36.0;  // and in that of the larger facet's: a part of it may be all that joins,
+constexpr double kFine = 2.0;     // but only as far as pixels are that many of the scans' resolution
+constexpr double kMost = 512.0;   // pixels in the root of the larger map, at most: else maps take gigabytes
+constexpr double kFinest = 0.7;   // of the scans' resolution: below it there is nothing to see
+constexpr double kCoarse = 1.6;   // pixels of a first look at plates against those of the second,
 constexpr double kWorthALook = 1.3;  // and at least: looks with hardly larger pixels save nothing
 constexpr double kTurnsKept = 0.15;  // share of a first look's turns that get a second
 constexpr std::size_t kLeastTurns = 3;
@@ -26,9 +28,11 @@ constexpr int kPeaksNear = 200;  // a turn, where all but those near a rough pos
 constexpr double kSmallFacet = 0.02;  // of the largest facet's area: too small to tell
 
 /// Pixel size of the maps, mesh units.
-double pitch_for(const FacetPatch& a, const FacetPatch& b) {
-  double pitch = std::sqrt(std::min(a.area, b.area)) / kSide;
-  if (are_strips(a, b)) pitch = std::min(pitch, std::min(mean_width(a), mean_width(b)) / kAcross);
+double pitch_for(const FacetPatch& a, const FacetPatch& b, double resolution) {
+  const double finer = are_strips(a, b)
+                           ? std::min(mean_width(a), mean_width(b)) / kAcross
+                           : std::max(std::sqrt(std::max(a.area, b.area)) / kLarger, kFine * resolution);
+  const double pitch = std::min(std::sqrt(std::min(a.area, b.area)) / kSide, finer);
   return std::max(pitch, std::sqrt(std::max(a.length * a.width, b.length * b.width)) / kMost);
 }
 
@@ -58,36 +62,18 @@ std::vector<double> turns_near(const std::optional<Near>& near, const FacetPatch
   return turns;
 }
 
-/// Pose of a peak: the half turn, the turn, the shift; then the mean tilt; then contact at the mean height.
+/// Pose of a peak: the half turn, the turn, the shift; then the tilt of the plane between the two; then contact at the mean height.
 Rigid pose_of_peak(const FacetPatch& a, const FacetPatch& b, const ReliefMap& map_a, const ReliefMap& map_b,
                    const Agreement& peak, double turn_rad) {
   const glm::dvec2 shift = map_a.low - map_b.low + map_a.pitch * glm::dvec2(peak.shift_u, peak.shift_v);
-  glm::dvec2 middle(0.0);
-  double offset = 0.0;
-  double count = 0.0;
-  for (int j = std::max(0, peak.shift_v); j < std::min(map_a.height, map_b.height + peak.shift_v); ++j) {
-    for (int i = std::max(0, peak.shift_u); i < std::min(map_a.width, map_b.width + peak.shift_u); ++i) {
-      const auto p =
-          static_cast<std::size_t>(j) * static_cast<std::size_t>(map_a.width) + static_cast<std::size_t>(i);
-      const auto q = static_cast<std::size_t>(j - peak.shift_v) * static_cast<std::size_t>(map_b.width) +
-                     static_cast<std::size_t>(i - peak.shift_u);
-      if (map_a.mask[p] * map_b.mask[q] == 0.0F) continue;
-      middle += map_a.low + map_a.pitch * glm::dvec2(i + 0.5, j + 0.5);
-      offset += static_cast<double>(map_a.height_map[p] + map_b.height_map[q]);
-      count += 1.0;
-    }
-  }
-  if (count > 0.0) {
-    middle /= count;
-    offset /= count;
-  }
-  const Rigid in_plane{facing(turn_rad), glm::dvec3(shift, offset)};
-  const double slope = glm::length(glm::dvec2(peak.tilt));
+  const PlaneBetween plane = plane_between(map_a, map_b, peak.shift_u, peak.shift_v);
+  const Rigid in_plane{facing(turn_rad), glm::dvec3(shift, plane.offset)};
+  const double slope = glm::length(plane.tilt);
   Rigid tilt;
   if (slope > 1e-9) {
-    const glm::dvec3 axis(peak.tilt.y / slope, -peak.tilt.x / slope, 0.0);
+    const glm::dvec3 axis(plane.tilt.y / slope, -plane.tilt.x / slope, 0.0);
     tilt.rotation = axis_rotation(axis, std::atan(slope));
-    const glm::dvec3 pivot(middle, 0.0);
+    const glm::dvec3 pivot(plane.middle, 0.0);
     tilt.translation = pivot - tilt.rotation * pivot;
   }
   const Rigid from_a{a.frame, a.centre};
@@ -184,7 +170,7 @@ SweepResult correlate_patches(const Task& task, double resolution, const SweepOp
                               const Context& context) {
   const FacetPatch& a = task.a->patch;
   const FacetPatch& b = task.b->patch;
-  const double wanted = pitch_for(a, b);
+  const double wanted = pitch_for(a, b, resolution);
   const double pitch = std::max(wanted, kFinest * resolution);
   const double step = turn_step(a, b, pitch, options.turn_step_px);
   SweepResult result;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "match/correlate.hpp"
@@ -26,6 +27,98 @@ FacetPatch flat_patch(const std::vector<glm::vec4>& rectangles) {
   patch.triangles = zbuffer::Triangles(mesh);
   patch.points = mesh.vertices;
   return patch;
+}
+
+/// z over a grid of 60 x 40 mm in steps of 1 mm.
+template <typename Height>
+FacetPatch patch_of(const Height& z) {
+  constexpr std::uint32_t kU = 60;
+  constexpr std::uint32_t kV = 40;
+  mesh::Mesh mesh;
+  for (std::uint32_t j = 0; j <= kV; ++j) {
+    for (std::uint32_t i = 0; i <= kU; ++i) {
+      const glm::dvec2 at(static_cast<double>(i) - 25, static_cast<double>(j) - 18);
+      mesh.vertices.emplace_back(glm::dvec3(at, z(at)));
+      if (i == kU || j == kV) continue;
+      const std::uint32_t v = j * (kU + 1) + i;
+      mesh.faces.emplace_back(v, v + 1, v + kU + 2);
+      mesh.faces.emplace_back(v, v + kU + 2, v + kU + 1);
+    }
+  }
+  FacetPatch patch;
+  patch.triangles = zbuffer::Triangles(mesh);
+  patch.points = mesh.vertices;
+  return patch;
+}
+
+/// Mean square of the slopes.
+double energy(const ReliefMap& map) {
+  double sum = 0;
+  for (std::size_t k = 0; k < map.mask.size(); ++k)
+    sum += static_cast<double>(map.slope_u[k] * map.slope_u[k] + map.slope_v[k] * map.slope_v[k]);
+  return sum / map.pixels;
+}
+
+TEST(Relief, OfABendAFifthIsLeftAndOfWhatIsFinerAll) {
+  const auto bend = [](const glm::dvec2& p) {
+    return 0.2 * p.x - 0.1 * p.y + 0.008 * p.x * p.x - 0.004 * p.x * p.y - 0.006 * p.y * p.y;
+  };
+  const auto fine = [](const glm::dvec2& p) { return 0.8 * std::sin(0.9 * p.x) * std::cos(0.7 * p.y); };
+  const auto sum = [&](const glm::dvec2& p) { return bend(p) + fine(p); };
+  const ReliefMap bent = relief_of(patch_of(bend), 2.0);
+  double steepest = 0;
+  double off = 0;
+  for (int j = 0; j + 1 < bent.height; ++j) {
+    for (int i = 0; i + 1 < bent.width; ++i) {
+      const auto k = static_cast<std::size_t>(j * bent.width + i);
+      if (bent.mask[k] == 0.0F) continue;
+      const double slope = static_cast<double>(bent.height_map[k + 1] - bent.height_map[k]) / bent.pitch;
+      steepest = std::max(steepest, std::abs(slope));
+      off = std::max(off, std::abs(static_cast<double>(bent.slope_u[k]) - 0.2 * slope));
+    }
+  }
+  EXPECT_GT(steepest, 0.5);
+  EXPECT_LT(off, 0.02);
+  const double both = energy(relief_of(patch_of(sum), 2.0));
+  const double alone = energy(relief_of(patch_of(fine), 2.0));
+  EXPECT_NEAR(both, alone + energy(bent), 0.1 * alone);
+  EXPECT_NEAR(energy(facing_relief_of(patch_of(sum), 2.0, 0.0)), both, 0.1 * both);
+}
+
+TEST(Relief, ThePlaneBetweenTwoIsThatOfTheirSpace) {
+  // Heights that add up to a plane, whatever each of them is, over the part that both cover.
+  ReliefMap a;
+  a.width = 12;
+  a.height = 9;
+  a.pitch = 0.5;
+  a.low = {3.0, -2.0};
+  ReliefMap b = a;
+  b.width = 10;
+  b.height = 8;
+  constexpr int kShiftU = 4;
+  constexpr int kShiftV = -3;
+  const auto place = [&](int i, int j) { return a.low + a.pitch * (glm::dvec2(i, j) + 0.5); };
+  for (auto* map : {&a, &b}) {
+    map->mask.assign(static_cast<std::size_t>(map->width * map->height), 1.0F);
+    for (int j = 0; j < map->height; ++j) {
+      for (int i = 0; i < map->width; ++i) {
+        const glm::dvec2 at = map == &a ? place(i, j) : place(i + kShiftU, j + kShiftV);
+        const double wave = std::sin(at.x) * std::cos(2.0 * at.y);
+        map->height_map.push_back(
+            static_cast<float>(map == &a ? wave : 0.7 + 0.3 * at.x - 0.2 * at.y - wave));
+      }
+    }
+  }
+  a.mask[5] = 0.0F;
+  const PlaneBetween plane = plane_between(a, b, kShiftU, kShiftV);
+  EXPECT_NEAR(plane.tilt.x, 0.3, 1e-5);
+  EXPECT_NEAR(plane.tilt.y, -0.2, 1e-5);
+  EXPECT_NEAR(plane.offset, 0.7 + 0.3 * plane.middle.x - 0.2 * plane.middle.y, 1e-5);
+  EXPECT_GT(plane.middle.x, place(kShiftU, 0).x);
+  EXPECT_LT(plane.middle.y, place(0, b.height + kShiftV).y);
+  // One line of pixels tells no tilt across it; none, nothing.
+  EXPECT_EQ(plane_between(a, b, a.width - 1, 0).tilt, glm::dvec2(0.0));
+  EXPECT_EQ(plane_between(a, b, a.width, 0).offset, 0.0);
 }
 
 TEST(Relief, PixelsAndTheirBordersAreCounted) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "prepared_pair.hpp"
 
 namespace rejoin::match {
@@ -51,6 +53,45 @@ TEST(Sweep, AWavyCutComesFirst) {
   const SweepResult swept = sweep(pair.a, pair.b, {}, Context{});
   ASSERT_FALSE(swept.hits.empty());
   EXPECT_LT(turn_between(swept.hits.front(), pair.truth), 4.0);
+}
+
+/// A part of a block that is broken along a bent and rough surface: 80 mm of it from shift - 40 on.
+Fragment bent_part(bool below, float shift, std::uint64_t seed) {
+  constexpr int kWaves = 48;
+  Random random(seed);
+  std::vector<glm::dvec4> waves;  // along x and y, phase, height
+  for (int k = 0; k < kWaves; ++k) {
+    const double length = 3.0 * std::exp2(random.uniform(0, 3));
+    const double direction = random.uniform(0, 3.14);
+    waves.emplace_back(6.28 / length * std::cos(direction), 6.28 / length * std::sin(direction),
+                       random.uniform(0, 6.28), 0.005 * length);
+  }
+  mesh::Mesh half = half_block(below, 100);
+  for (auto& v : half.vertices) {
+    v.x += shift;
+    if (std::abs(v.z) == static_cast<float>(kHalfZ)) continue;
+    const glm::dvec2 at(v.x, v.y);
+    double z = 10.0 - glm::dot(at, at) / 200.0;
+    for (const glm::dvec4& wave : waves) z += wave.w * std::sin(wave.x * at.x + wave.y * at.y + wave.z);
+    v.z = static_cast<float>(z);
+  }
+  return prepare(below ? "below" : "above", half, Context{});
+}
+
+// Cracks end at older ones, so two pieces may share a part of their breaks only, here three tenths; and breaks bend, so that one
+// bowl lies in another anywhere.
+TEST(Sweep, BentBreaksThatShareAPartAreAmongTheFirst) {
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
+    const Fragment a = bent_part(true, -28, seed);
+    const Fragment b = bent_part(false, 28, seed);
+    const Rigid truth = to_origins(a, b, Rigid{});
+    const glm::dvec3 middle = mesh::centroid(b.surface);
+    const auto hits = sweep(a, b, {}, Context{}).hits;
+    ASSERT_GE(hits.size(), 10U);
+    EXPECT_TRUE(std::any_of(hits.begin(), hits.begin() + 10, [&](const SweepHit& hit) {
+      return turn_between(hit, truth) < 6.0 && glm::distance(hit.pose(middle), truth(middle)) < 4.0;
+    })) << seed;
+  }
 }
 
 // A table scanned with one of the pieces: maps of it with pixels that suit the other piece would take gigabytes.
