@@ -172,22 +172,24 @@ PlaneBetween plane_between(const ReliefMap& fixed, const ReliefMap& facing, int 
   double xy = 0.0;
   double yy = 0.0;
   glm::dvec2 moments(0.0);
-  for_pixels(fixed, [&](std::size_t k, double i, double j) {
-    const int x = static_cast<int>(i) - shift_u;
-    const int y = static_cast<int>(j) - shift_v;
-    if (x < 0 || y < 0 || x >= facing.width || y >= facing.height) return;
-    const auto q =
-        static_cast<std::size_t>(y) * static_cast<std::size_t>(facing.width) + static_cast<std::size_t>(x);
-    if (facing.mask[q] == 0.0F) return;
-    const double height = static_cast<double>(fixed.height_map[k] + facing.height_map[q]);
-    count += 1.0;
-    sum += glm::dvec2(i, j);
-    heights += height;
-    xx += i * i;
-    xy += i * j;
-    yy += j * j;
-    moments += height * glm::dvec2(i, j);
-  });
+  for (int j = std::max(0, shift_v); j < std::min(fixed.height, facing.height + shift_v); ++j) {
+    for (int i = std::max(0, shift_u); i < std::min(fixed.width, facing.width + shift_u); ++i) {
+      const auto p =
+          static_cast<std::size_t>(j) * static_cast<std::size_t>(fixed.width) + static_cast<std::size_t>(i);
+      const auto q = static_cast<std::size_t>(j - shift_v) * static_cast<std::size_t>(facing.width) +
+                     static_cast<std::size_t>(i - shift_u);
+      if (fixed.mask[p] * facing.mask[q] == 0.0F) continue;
+      const glm::dvec2 at(i, j);
+      const auto height = static_cast<double>(fixed.height_map[p] + facing.height_map[q]);
+      count += 1.0;
+      sum += at;
+      heights += height;
+      xx += at.x * at.x;
+      xy += at.x * at.y;
+      yy += at.y * at.y;
+      moments += height * at;
+    }
+  }
   PlaneBetween plane;
   if (count == 0.0) return plane;
   const glm::dvec2 mean = sum / count;
