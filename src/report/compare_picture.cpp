@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/words.hpp"
 #include "report/compare_report.hpp"
 #include "report/depth_pictures.hpp"
 
@@ -144,7 +145,7 @@ Image draw_comparison(const Comparison& comparison, const std::string& name_a, c
   const int side = kPanel - 30;
   draw_scatter(sheet, {left, kTop + kRowHead, side, side}, comparison, &GridPose::cast, &GridPose::drawn,
                "ray cast, same meshes",
-               fmt::format("drawn: slope difference at {} poses", comparison.grid.size()));
+               "drawn: slope difference at " + counted(comparison.grid.size(), "pose"));
   draw_scatter(sheet, {left, kTop + kRow + kRowHead, side, side}, comparison, &GridPose::cast_full,
                &GridPose::cast, "ray cast, full meshes", "ray cast, coarse meshes");
   return sheet;

@@ -114,6 +114,7 @@ std::string compare_table(const Comparison& comparison) {
   text += score_line("ray cast, full", comparison.pose.cast_full, n);
   text += "\nfrom drawing\n" + difference_lines(comparison.drawing);
   text += "\nfrom the level of detail\n" + difference_lines(comparison.detail);
+  if (comparison.grid.size() < 2) return text;
   text += fmt::format("\nover {} poses around it, slope\n", comparison.grid.size());
   text += fmt::format("  {:<28}{:>12}{:>12}{:>12}{:>12}\n", "|difference|", "mean", "largest", "of the mean",
                       "correlation");

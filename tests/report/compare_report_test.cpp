@@ -34,6 +34,15 @@ TEST(CompareReport, TableFitsAHundredColumns) {
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;
 }
 
+TEST(CompareReport, OnePoseHasNoTableOfPosesAroundIt) {
+  match::Comparison comparison = planted_comparison();
+  EXPECT_NE(compare_table(comparison).find("over 243 poses around it"), std::string::npos);
+  comparison.grid.resize(1);
+  const std::string table = compare_table(comparison);
+  EXPECT_EQ(table.find("around it"), std::string::npos);
+  EXPECT_NE(table.find("from the level of detail"), std::string::npos);
+}
+
 TEST(CompareReport, PictureIsDrawnWithoutOverlapToo) {
   const Planted pair = planted_pair(10);
   match::CompareOptions options;
