@@ -82,11 +82,11 @@ TEST_P(GlContext, ShaderThatDoesNotCompileIsNamed) {
   const auto context = make_context(GetParam());
   const Bound bound(*context);
   try {
-    make_program(context->gl(), context->subject(), {{GL_COMPUTE_SHADER, {"compare.glsl", "score.comp"}}},
+    make_program(context->gl(), context->subject(), {{GL_COMPUTE_SHADER, {"compare.glsl", "rasterise.glsl"}}},
                  {});
     FAIL() << "compiled without its definitions";
   } catch (const BackendError& error) {
-    EXPECT_NE(std::string(error.what()).find("score.comp"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("rasterise.glsl"), std::string::npos) << error.what();
     EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
   }
 }

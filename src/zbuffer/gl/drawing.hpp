@@ -60,11 +60,9 @@ class Drawing {
       const PairPlacement& pose) = 0;
 };
 
-/// Everything in one compute dispatch: rasteriser, mirror, differences, sums.
-/// \param in_shared_memory  keep the maps there; \pre fits_shared_memory
+/// Two compute dispatches for many poses: one draws their maps, one compares them.
 std::unique_ptr<Drawing> make_compute_drawing(Engine& engine, const Surface& a, const Surface& b,
-                                              int resolution, bool in_shared_memory);
-bool fits_shared_memory(const Limits& limits, int resolution);
+                                              int resolution);
 
 /// Whether the triangles fit into one buffer, and whether the work of one invocation stays below what a
 /// software driver does before it gives up (which comes back as kUnfinished).

@@ -12,8 +12,6 @@ Limits read_limits(const Context& context) {
   Limits limits;
   limits.software = is_software_renderer(context.renderer());
   GLint value = 0;
-  gl.GetIntegerv(GL_MAX_COMPUTE_SHARED_MEMORY_SIZE, &value);
-  limits.shared_bytes = static_cast<std::size_t>(value);
   gl.GetIntegerv(GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS, &value);
   limits.group_size = value;
   gl.GetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_SIZE, 0, &value);

@@ -14,7 +14,6 @@ namespace rejoin::zbuffer::gl {
 
 struct Limits {
   bool software = false;
-  std::size_t shared_bytes = 0;   ///< of one work group
   std::size_t storage_bytes = 0;  ///< of one buffer that shaders write
   int group_size = 0;             ///< invocations of one work group, at most
   int texture_layers = 0;         ///< of one array texture
@@ -43,10 +42,21 @@ class Engine {
   /// The program of these stages, compiled once.  \pre a Session lives
   GLuint program(const std::vector<Stage>& stages, const std::string& defines);
 
+  /// Depth maps that the drawings of a context take turns in: making room for them takes as long as a thousand poses.
+  struct Maps {
+    Buffer buffer;
+    std::size_t bytes = 0;
+    bool empty = false;  ///< every pixel of every map
+  };
+
+  /// \pre a Session lives
+  Maps& maps() { return maps_; }
+
  private:
   std::unique_ptr<Context> context_;
   Limits limits_;
   std::map<std::string, Program> programs_;
+  Maps maps_;
   std::mutex mutex_;
 };
 

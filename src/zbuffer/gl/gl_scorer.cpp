@@ -47,11 +47,6 @@ class GlScorer : public Scorer {
         surfaces_{surface_of(a), surface_of(b)} {
     const Engine::Session session(*engine_);
     const Limits& limits = engine_->limits();
-    const bool fits = fits_shared_memory(limits, options_.resolution);
-    if (path == Path::ComputeShared && !fits) {
-      throw BackendError(engine_->context().subject(), "the depth maps do not fit into shared memory",
-                         "choose a smaller --resolution");
-    }
     const bool compute = suits_compute(limits, surfaces_[0], surfaces_[1], options_.resolution);
     if (path == Path::Compute && !compute) {
       throw BackendError(engine_->context().subject(), "the driver cannot compute so many faces or pixels",
@@ -60,8 +55,7 @@ class GlScorer : public Scorer {
     if (path == Path::Pipeline || (path == Path::Auto && !compute)) {
       drawing_ = make_pipeline_drawing(*engine_, surfaces_[0], surfaces_[1], options_.resolution);
     } else {
-      drawing_ = make_compute_drawing(*engine_, surfaces_[0], surfaces_[1], options_.resolution,
-                                      fits && path != Path::ComputeBuffer);
+      drawing_ = make_compute_drawing(*engine_, surfaces_[0], surfaces_[1], options_.resolution);
     }
   }
 

@@ -136,7 +136,7 @@ class PipelineDrawing : public Drawing {
   void compare(std::size_t count) {
     const Functions& gl = engine_.gl();
     // Software: small groups switch less; yet no invocation may come near 65,535 loop rounds (see
-    // score.comp).
+    // rasterise.glsl).
     const int small = engine_.limits().software ? 64 : 256;
     const int group = resolution_ > 512 ? engine_.limits().group_size : small;
     const GLuint program = engine_.program({{GL_COMPUTE_SHADER, {"compare.glsl", "map_compare.comp"}}},

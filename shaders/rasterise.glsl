@@ -1,11 +1,9 @@
-// One work group scores one pose after the other: draws both fragments into maps of its own with atomic minima,
-// compares the maps, writes one record.  Comes after compare.glsl.
+// Draws fragments into depth maps in a buffer with atomic minima.  Comes after compare.glsl.
 //
 // Coverage is decided in exact integers on a grid of 2^SUBPIXEL_BITS steps a pixel, as the CPU rasteriser does
 // (src/zbuffer/detail/fixed_triangle.hpp): both draw the same pixels.
 //
-// Defined before: LOCAL_SIZE, SUBPIXEL_BITS, REACH, LARGE_PIXELS, LARGE_LIST, TEAM_SIZE, and for maps in shared memory SHARED_SIDE
-// (the resolution).
+// Defined before: LOCAL_SIZE, SUBPIXEL_BITS, REACH, LARGE_PIXELS, LARGE_LIST, TEAM_SIZE.
 
 layout(local_size_x = LOCAL_SIZE) in;
 
@@ -14,23 +12,17 @@ layout(local_size_x = LOCAL_SIZE) in;
 layout(std430, binding = 0) readonly buffer Meshes { float corners[]; };
 // Three rows a fragment, two fragments a pose: (x, y in pixels, depth in mesh units) = rows * (corner, 1).
 layout(std430, binding = 1) readonly buffer Poses { vec4 rows[]; };
-layout(std430, binding = 2) writeonly buffer Records { uvec4 records[]; };
+layout(std430, binding = 2) buffer Records { uvec4 records[]; };
+layout(std430, binding = 3) coherent buffer Maps { uint maps[]; };   // two a pose, from the first pose of the dispatch on
 
 uniform uvec3 mesh_a;   // first word, count of triangles, how many of them (the first) need not be drawn where they look away
 uniform uvec3 mesh_b;
-uniform uint pose_count;
 uniform uint probe_steps;   // a few
+uniform uint resolution;    // pixels of a map's side
+uniform uint first_pose;    // of the dispatch
 
-#ifdef SHARED_SIDE
-const int side = SHARED_SIDE;
-shared uint maps[2 * SHARED_SIDE * SHARED_SIDE];
-const uint map_base = 0u;
-#else
-uniform uint resolution;
-layout(std430, binding = 3) coherent buffer Maps { uint maps[]; };   // one pair of maps a work group
 int side = int(resolution);
-uint map_base = gl_WorkGroupID.x * 2u * resolution * resolution;
-#endif
+uint map_base;   // word of A's map at the pose of this work group
 
 const uint kEmpty = 0xffffffffu;
 const uint kUnfinished = 0xffffffffu;   // in place of the overlap: the driver cut the work short
@@ -39,8 +31,7 @@ const int kNarrow = 31 * 1024;
 const int kSubpixels = 1 << SUBPIXEL_BITS;
 
 shared uint large[LARGE_LIST];   // triangles of many pixels, drawn by a team of invocations each
-shared uint large_count;
-shared uint unfinished;
+shared uint large_count;   // 0 before and after draw()
 
 // Floats, negative ones included, in the order of unsigned integers.
 uint ordered(float depth) {
@@ -58,11 +49,7 @@ float depth_b(ivec2 pixel) {
 }
 
 void synchronize() {
-#ifdef SHARED_SIDE
-  memoryBarrierShared();
-#else
   memoryBarrier();
-#endif
   barrier();
 }
 
@@ -186,12 +173,13 @@ void draw_wide(Triangle t, uint map, int first, int stride) {
   }
 }
 
-void draw(uvec3 mesh, uint row, uint map) {
+// Draws the `part`-th of so many parts of a mesh.
+void draw(uvec3 mesh, uint row, uint map, uint part, uint parts) {
   const vec4 x = rows[row];
   const vec4 y = rows[row + 1u];
   const vec4 z = rows[row + 2u];
   const bool front_is_positive = dot(cross(x.xyz, y.xyz), z.xyz) < 0.0;
-  for (uint index = gl_LocalInvocationIndex; index < mesh.y; index += LOCAL_SIZE) {
+  for (uint index = part * LOCAL_SIZE + gl_LocalInvocationIndex; index < mesh.y; index += parts * LOCAL_SIZE) {
     const Triangle t = triangle_of(mesh, index, x, y, z);
     if (t.size.x <= 0 || t.size.y <= 0) continue;
     if (index < mesh.z && t.narrow && (area_of(t) > 0) != front_is_positive) continue;   // looks away, or has no area
@@ -224,23 +212,4 @@ bool loops_work() {
   uint steps = 0u;
   for (uint k = 0u; k < probe_steps; ++k) ++steps;
   return steps == probe_steps;
-}
-
-void main() {
-  const uint pixels = uint(side * side);
-  for (uint pose = gl_WorkGroupID.x; pose < pose_count; pose += gl_NumWorkGroups.x) {
-    if (gl_LocalInvocationIndex == 0u) large_count = unfinished = 0u;
-    for (uint p = gl_LocalInvocationIndex; p < 2u * pixels; p += LOCAL_SIZE) maps[map_base + p] = kEmpty;
-    synchronize();
-    draw(mesh_a, 6u * pose, map_base);
-    draw(mesh_b, 6u * pose + 3u, map_base + pixels);
-    const Record record = compare(side);
-    if (!loops_work()) atomicOr(unfinished, 1u);
-    synchronize();
-    if (gl_LocalInvocationIndex == 0u) {
-      const uint overlap = unfinished != 0u ? kUnfinished : record.overlap;
-      records[pose] = uvec4(floatBitsToUint(record.sum), overlap, record.covered_a, record.covered_b);
-    }
-    synchronize();
-  }
 }
