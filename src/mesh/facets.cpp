@@ -24,7 +24,12 @@ constexpr double kSmoothRadius = 2.0;   // spacings: about 12 neighbours
 constexpr double kQuadricRadius = 4.0;  // spacings: about 50 neighbours for 6 unknowns
 constexpr float kWallLow = 0.5F;        // of the wall thickness
 constexpr float kWallHigh = 1.8F;
-constexpr float kWallSquare = 0.8F;   // the opposite wall may lean by 37 degrees
+constexpr float kWallSquare = 0.95F;  // the opposite wall may lean by 18 degrees
+constexpr double kVoteReach = 1.0;    // wall thicknesses within which samples vote on each other,
+constexpr float kVoteLean = 0.95F;    // if their normals differ by at most 18 degrees
+constexpr float kVoteLevel = 0.1F;    // and they lie within that of each other's plane
+constexpr std::size_t kVoters = 3;    // every so many samples have a vote: some fifty are asked each time
+constexpr int kVotes = 8;             // at most
 constexpr double kStripRadius = 0.7;  // of the wall thickness
 constexpr float kStripCone = 28.0F;   // the same: a strip ends where the break turns a corner
 constexpr double kStripOfSize =
@@ -118,31 +123,65 @@ std::vector<bool> meets_something(const InwardRays& rays) {
   return meets;
 }
 
-/// Wall points see the opposite wall, or lie on a wide facet of an open scan; then every point takes the vote of its
-/// surroundings, twice.
+/// Every sample's voters: those near it that lie on the same side of every edge, about level with it.
+Lists voters_of(const Segmentation& s) {
+  const auto level = kVoteLevel * static_cast<float>(s.wall_thickness);
+  std::vector<glm::vec3> points;
+  for (std::size_t k = 0; k < s.samples.size(); k += kVoters) points.push_back(s.samples.points[k]);
+  const Neighbours neighbours(points, static_cast<float>(kVoteReach * s.wall_thickness));
+  Lists lists(s.samples.size());
+  parallel_for(lists.size(), 256, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      neighbours.of(s.samples.points[i], lists[i]);
+      for (std::uint32_t& k : lists[i]) k *= kVoters;
+      std::erase_if(lists[i], [&](std::uint32_t k) {
+        const float height = glm::dot(s.normals[i], s.samples.points[k] - s.samples.points[i]);
+        return std::abs(height) > level || glm::dot(s.normals[k], s.normals[i]) < kVoteLean;
+      });
+    }
+  });
+  return lists;
+}
+
+/// A single normal of a noisy scan leans by ten degrees and more, their mean over a wall thickness hardly.
+std::vector<glm::vec3> mean_normals(const std::vector<glm::vec3>& normals, const Lists& voters) {
+  std::vector<glm::vec3> means = normals;
+  parallel_for(means.size(), 1024, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      glm::vec3 sum = normals[i];
+      for (const auto k : voters[i]) sum += normals[k];
+      means[i] = glm::normalize(sum);
+    }
+  });
+  return means;
+}
+
+/// Wall points see the opposite wall, parallel to theirs, or lie on a wide facet of an open scan; then every point takes the vote of its
+/// surroundings up to the next edge until none changes.  Where a break runs askew, the wall behind it counts as a break, too.
 /// \param wide  of an open scan, per sample: on a facet too wide for a break; else empty
-void classify_thin(Segmentation& s, const InwardRays& rays, const std::vector<bool>& wide,
-                   const Lists& near) {
+void classify_thin(Segmentation& s, const InwardRays& rays, const std::vector<bool>& wide) {
   const auto t = static_cast<float>(s.wall_thickness);
+  const Lists voters = voters_of(s);
+  const std::vector<glm::vec3> normals = mean_normals(s.normals, voters);
   const auto is_wall = [&](std::size_t i) {
     const float length = rays.length[i];
-    if (rays.square[i] > kWallSquare && length > kWallLow * t && length < kWallHigh * t) return true;
+    const bool parallel = -glm::dot(normals[i], normals[rays.opposite[i]]) > kWallSquare;
+    if (parallel && length > kWallLow * t && length < kWallHigh * t) return true;
     return !wide.empty() && wide[i];
   };
   for (std::size_t i = 0; i < s.samples.size(); ++i)
     s.surface[i] = is_wall(i) ? Surface::Original : Surface::Fracture;
-  for (int round = 0; round < 2; ++round) {
+  for (int round = 0; round < kVotes; ++round) {
     std::vector<Surface> voted = s.surface;
-    for (std::size_t i = 0; i < s.samples.size(); ++i) {
-      int fracture = 0;
-      int all = 0;
-      for (const auto k : near[i]) {
-        if (glm::dot(s.normals[k], s.normals[i]) < 0.5F) continue;
-        fracture += s.surface[k] == Surface::Fracture ? 1 : 0;
-        ++all;
+    parallel_for(voted.size(), 1024, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        const auto fracture = static_cast<std::size_t>(std::ranges::count_if(
+            voters[i], [&](std::uint32_t k) { return s.surface[k] == Surface::Fracture; }));
+        if (2 * fracture != voters[i].size())
+          voted[i] = 2 * fracture > voters[i].size() ? Surface::Fracture : Surface::Original;
       }
-      voted[i] = 2 * fracture > all ? Surface::Fracture : Surface::Original;
-    }
+    });
+    if (voted == s.surface) break;
     s.surface = std::move(voted);
   }
 }
@@ -224,7 +263,7 @@ Lists classify(const Mesh& mesh, double size, Segmentation& s) {
   }
   std::vector<bool> wide;
   if (open) wide = open_walls(mesh, s, seen.near, kWideWalls * s.wall_thickness).wall;
-  classify_thin(s, seen.rays, wide, seen.near);
+  classify_thin(s, seen.rays, wide);
   return std::move(seen.near);
 }
 

@@ -1,6 +1,7 @@
 /// Wall thickness of thin pieces, the natural unit for sherds.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "mesh/mesh.hpp"
@@ -12,8 +13,9 @@ namespace rejoin::mesh {
 /// how squarely it leaves.
 struct InwardRays {
   std::vector<float> length;  ///< mesh units; +infinity where the ray meets nothing
-  std::vector<float>
-      square;  ///< cosine between the ray and the outward normal where it leaves: 1 = parallel walls
+  std::vector<float> square;  ///< cosine between the ray and the normal of the face through which it leaves
+  std::vector<std::uint32_t>
+      opposite;  ///< the sample next to where it leaves; itself where none looks out there
 };
 
 /// \param normals  smoothed outward normals of the samples

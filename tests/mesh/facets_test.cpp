@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/random.hpp"
 #include "mesh/detail/weld.hpp"
 #include "mesh/painted_facets.hpp"
 #include "mesh/thickness.hpp"
@@ -248,6 +249,51 @@ TEST(Facets, ShellsFractureSurfaceIsItsFourNarrowSides) {
   EXPECT_EQ(fracture, 4);
   EXPECT_NEAR(area, truth,
               0.25 * truth);  // a row of samples at either edge of a 5 mm strip may go either way
+}
+
+/// Share of the samples that `among` chooses which are of this class.
+template <class Among>
+double share_of(const Segmentation& s, Surface wanted, Among among) {
+  int all = 0;
+  int right = 0;
+  for (std::size_t i = 0; i < s.samples.size(); ++i) {
+    if (!among(s.samples.points[i])) continue;
+    ++all;
+    right += s.surface[i] == wanted ? 1 : 0;
+  }
+  EXPECT_GT(all, 200);
+  return right / static_cast<double>(std::max(1, all));
+}
+
+TEST(Facets, BreakThatRunsAskewThroughAWallIsNoWall) {
+  // A plate whose two ends lean by 55 degrees: behind a break lies the wall, leaning by 35, at some place as far as the wall is thick.
+  const float lean = 1.43F;
+  Mesh plate = box({80, 60, 6}, 80, flat);
+  for (glm::vec3& p : plate.vertices) p.x += lean * p.z;
+  const Segmentation s = segment(plate);
+  ASSERT_NEAR(s.wall_thickness, 6.0, 0.1);
+  const auto end = [&](const glm::vec3& p) { return std::min(p.x - lean * p.z, 80.0F - p.x + lean * p.z); };
+  const auto in_middle = [](const glm::vec3& p) { return p.y > 8.0F && p.y < 52.0F; };
+  EXPECT_GT(share_of(s, Surface::Fracture,
+                     [&](const glm::vec3& p) {
+                       return in_middle(p) && end(p) < 0.01F && p.z > 0.8F && p.z < 5.2F;
+                     }),
+            0.97);
+}
+
+TEST(Facets, WallsOfANoisyScanAreWalls) {
+  Mesh plate = box({80, 60, 6}, 80, flat);
+  Random random(5, 0);
+  for (glm::vec3& p : plate.vertices) {
+    if (p.z == 0.0F || p.z == 6.0F)
+      p.z += static_cast<float>(0.5 * (random.uniform() + random.uniform() - 1.0));
+  }
+  const Segmentation s = segment(plate);
+  ASSERT_NEAR(s.wall_thickness, 6.0, 0.3);
+  const auto on_wall = [](const glm::vec3& p) {
+    return p.x > 2.0F && p.x < 78.0F && p.y > 2.0F && p.y < 58.0F;
+  };
+  EXPECT_GT(share_of(s, Surface::Original, on_wall), 0.97);
 }
 
 /// The mesh without the faces whose middle is chosen, its sides welded together.
