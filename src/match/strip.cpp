@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/median.hpp"
+
 namespace rejoin::match {
 namespace {
 
@@ -11,6 +13,8 @@ constexpr double kElongated = 3.0;  // length over mean width from which a facet
 constexpr double kStretch =
     0.5;  // of the shorter strip: where less than that joins, its course does not count
 constexpr std::size_t kStretches = 32;
+constexpr double kWidthReach = 1.5;  // widths around a point whose area tells the width
+constexpr int kWidthRounds = 4;
 constexpr double kAstray = 0.25;  // radians, by which stretches that join may be turned
 constexpr double kApart = 0.5;    // of the mean width, by which their bends may part at their ends
 
@@ -77,7 +81,25 @@ std::vector<Course> courses(const FacetPatch& strip, double length) {
 }  // namespace
 
 double mean_width(const FacetPatch& patch) {
-  return patch.area / std::max(patch.length, 1e-30);
+  const double straight = patch.area / std::max(patch.length, 1e-30);
+  const std::size_t count = std::min(kStretches, patch.points.size());
+  if (count == 0) return straight;
+  const double a_point = patch.area / static_cast<double>(patch.points.size());
+  double width = straight;
+  std::vector<double> widths(count);
+  for (int round = 0; round < kWidthRounds; ++round) {
+    const double reach = kWidthReach * width;
+    for (std::size_t k = 0; k < count; ++k) {
+      const glm::vec2 middle(patch.points[k * patch.points.size() / count]);
+      const auto near = std::ranges::count_if(patch.points, [&](const glm::vec3& point) {
+        const glm::vec2 from = glm::vec2(point) - middle;
+        return static_cast<double>(glm::dot(from, from)) < reach * reach;
+      });
+      widths[k] = a_point * static_cast<double>(near) / (2.0 * reach);
+    }
+    width = std::min(straight, median(widths));
+  }
+  return width;
 }
 
 bool are_strips(const FacetPatch& a, const FacetPatch& b) {

@@ -52,6 +52,20 @@ double missed_by(const std::vector<double>& turns, double turn) {
   return least;
 }
 
+TEST(Strip, ABentBreakIsAsWideAsAStraightOne) {
+  std::vector<glm::vec3> points;
+  for (double along = 0.0; along <= 80.0; along += 0.5) {
+    for (double across = -0.5 * kWide; across <= 0.5 * kWide; across += 0.5)
+      points.emplace_back(along, across, 0.0);
+  }
+  EXPECT_NEAR(mean_width(strip_of(points)), kWide, 0.1 * kWide);
+  for (const double half : {30.0, 90.0, 170.0}) {
+    FacetPatch bent = arc(-half, half, false);
+    bent.area = 2.0 * half * kDegree * kRadius * kWide;  // no longer the chord's
+    EXPECT_NEAR(mean_width(bent), kWide, 0.1 * kWide) << half;
+  }
+}
+
 TEST(Strip, AShortSherdMayJoinAnyPartOfALongBentBreak) {
   const FacetPatch whole = arc(-75, 75, false);
   for (const double at : {-55.0, -30.0, 0.0, 55.0}) {
