@@ -8,6 +8,7 @@
 #include "core/parallel.hpp"
 #include "match/cuts.hpp"
 #include "match/strip.hpp"
+#include "mesh/neighbours.hpp"
 
 namespace rejoin::match {
 namespace {
@@ -25,6 +26,8 @@ constexpr double kTurnsKept = 0.15;  // share of a first look's turns that get a
 constexpr std::size_t kLeastTurns = 3;
 constexpr double kSlack = 0.25;  // of a step of the second look, by which its turns may lie further apart
 constexpr int kPeaksNear = 200;  // a turn, where all but those near a rough pose are dropped
+constexpr double kWorn = 0.18;   // wall thicknesses from a wall, where a break is taken for worn,
+constexpr double kLeastUnworn = 0.3;  // unless less than that of a facet lies farther
 constexpr double kSmallFacet = 0.02;  // of the largest facet's area: too small to tell
 
 /// Pixel size of the maps, mesh units.
@@ -205,6 +208,25 @@ SweepResult correlate_patches(const Task& task, double resolution, const SweepOp
   return result;
 }
 
+/// The facet of every face of the coarse level, -1 on the worn edges of breaks, which lie along each other anywhere.
+std::vector<int> unworn(const mesh::Segmentation& s, std::vector<int> facet_of_face,
+                        const std::vector<int>& sample_of_face) {
+  std::vector<glm::vec3> walls;
+  for (std::size_t i = 0; i < s.samples.size(); ++i) {
+    if (s.surface[i] == mesh::Surface::Original) walls.push_back(s.samples.points[i]);
+  }
+  const mesh::Neighbours near_walls(walls, static_cast<float>(kWorn * s.wall_thickness));
+  std::vector<std::uint32_t> near;
+  for (std::size_t f = 0; f < facet_of_face.size(); ++f) {
+    if (facet_of_face[f] < 0) continue;
+    const auto i = static_cast<std::size_t>(sample_of_face[f]);
+    if (s.surface[i] != mesh::Surface::Fracture) continue;
+    near_walls.of(s.samples.points[i], near);
+    if (!near.empty()) facet_of_face[f] = -1;
+  }
+  return facet_of_face;
+}
+
 /// The facets of one cut that may join.
 /// \param first  number of the cut's first facet
 std::vector<SweptFacet> candidates(const Fragment& fragment, const mesh::Cut& cut, int first,
@@ -215,13 +237,18 @@ std::vector<SweptFacet> candidates(const Fragment& fragment, const mesh::Cut& cu
     if (facet.fracture) largest = std::max(largest, facet.area);
   }
   const auto facet_of_face = mesh::facet_of_faces(cut, fragment.sample_of_face);
+  const bool thin = fragment.facets.wall_thickness > 0;
+  const auto within_edges =
+      thin ? unworn(fragment.facets, facet_of_face, fragment.sample_of_face) : facet_of_face;
   std::vector<SweptFacet> list;
   for (int f = 0; f < static_cast<int>(cut.facets.size()); ++f) {
     const auto& facet = cut.facets[static_cast<std::size_t>(f)];
     const bool wanted = chosen.empty() ? facet.fracture && facet.area > kSmallFacet * largest
                                        : std::find(chosen.begin(), chosen.end(), first + f) != chosen.end();
     if (!wanted) continue;
-    list.push_back({first + f, cut_patch(fragment.coarse, facet_of_face, cut, f)});
+    list.push_back({first + f, cut_patch(fragment.coarse, within_edges, cut, f)});
+    if (thin && list.back().patch.area < kLeastUnworn * facet.area)
+      list.back().patch = cut_patch(fragment.coarse, facet_of_face, cut, f);
     if (list.back().patch.points.empty()) list.pop_back();
   }
   return list;
