@@ -28,8 +28,8 @@ constexpr float kWallSquare = 0.95F;  // the opposite wall may lean by 18 degree
 constexpr double kVoteReach = 1.0;    // wall thicknesses within which samples vote on each other,
 constexpr float kVoteLean = 0.95F;    // if their normals differ by at most 18 degrees
 constexpr float kVoteLevel = 0.1F;    // and they lie within that of each other's plane
-constexpr std::size_t kVoters = 3;    // every so many samples have a vote: some fifty are asked each time
-constexpr int kVotes = 8;             // at most
+constexpr std::size_t kVoters = 6;  // every so many samples have a vote: some twenty-five are asked each time
+constexpr int kVotes = 8;           // at most
 constexpr double kStripRadius = 0.7;  // of the wall thickness
 constexpr float kStripCone = 28.0F;   // the same: a strip ends where the break turns a corner
 constexpr double kStripOfSize =
@@ -163,14 +163,18 @@ void classify_thin(Segmentation& s, const InwardRays& rays, const std::vector<bo
   const auto t = static_cast<float>(s.wall_thickness);
   const Lists voters = voters_of(s);
   const std::vector<glm::vec3> normals = mean_normals(s.normals, voters);
+  const PointIndex index(s.samples.points);
   const auto is_wall = [&](std::size_t i) {
+    if (!wide.empty() && wide[i]) return true;
     const float length = rays.length[i];
-    const bool parallel = -glm::dot(normals[i], normals[rays.opposite[i]]) > kWallSquare;
-    if (parallel && length > kWallLow * t && length < kWallHigh * t) return true;
-    return !wide.empty() && wide[i];
+    if (!(length > kWallLow * t && length < kWallHigh * t)) return false;
+    const auto opposite = index.nearest(s.samples.points[i] - length * s.normals[i]);
+    return -glm::dot(normals[i], normals[opposite->first]) > kWallSquare;
   };
-  for (std::size_t i = 0; i < s.samples.size(); ++i)
-    s.surface[i] = is_wall(i) ? Surface::Original : Surface::Fracture;
+  parallel_for(s.samples.size(), 256, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      s.surface[i] = is_wall(i) ? Surface::Original : Surface::Fracture;
+  });
   for (int round = 0; round < kVotes; ++round) {
     std::vector<Surface> voted = s.surface;
     parallel_for(voted.size(), 1024, [&](std::size_t first, std::size_t last) {

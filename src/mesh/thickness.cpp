@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "core/parallel.hpp"
-#include "mesh/point_index.hpp"
 #include "mesh/ray_scene.hpp"
 
 namespace rejoin::mesh {
@@ -26,12 +24,9 @@ constexpr double kEvenHigh = 1.25;
 InwardRays cast_inwards(const Mesh& mesh, const Samples& samples, const std::vector<glm::vec3>& normals) {
   const RayScene scene(mesh);
   const auto face_normal = face_normals(mesh);
-  const PointIndex index(samples.points);
   InwardRays rays;
   rays.length.assign(samples.size(), std::numeric_limits<float>::infinity());
   rays.square.assign(samples.size(), 0.0F);
-  rays.opposite.resize(samples.size());
-  std::iota(rays.opposite.begin(), rays.opposite.end(), 0U);
   const auto skip = static_cast<float>(0.05 * samples.spacing);
   parallel_for(samples.size(), 256, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
@@ -45,8 +40,6 @@ InwardRays cast_inwards(const Mesh& mesh, const Samples& samples, const std::vec
         if (square > 0.0F) {
           rays.length[i] = hit->distance;
           rays.square[i] = square;
-          const auto near = index.nearest(samples.points[i] + hit->distance * inwards);
-          if (near && glm::dot(normals[near->first], inwards) > 0.0F) rays.opposite[i] = near->first;
           break;
         }
         from = hit->distance + skip;

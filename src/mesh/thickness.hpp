@@ -1,7 +1,6 @@
 /// Wall thickness of thin pieces, the natural unit for sherds.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "mesh/mesh.hpp"
@@ -13,9 +12,8 @@ namespace rejoin::mesh {
 /// how squarely it leaves.
 struct InwardRays {
   std::vector<float> length;  ///< mesh units; +infinity where the ray meets nothing
-  std::vector<float> square;  ///< cosine between the ray and the normal of the face through which it leaves
-  std::vector<std::uint32_t>
-      opposite;  ///< the sample next to where it leaves; itself where none looks out there
+  std::vector<float>
+      square;  ///< cosine between the ray and the outward normal where it leaves: 1 = parallel walls
 };
 
 /// \param normals  smoothed outward normals of the samples

@@ -6,96 +6,17 @@
 #include <set>
 
 #include "core/random.hpp"
+#include "facet_shapes.hpp"
 #include "mesh/detail/weld.hpp"
-#include "mesh/painted_facets.hpp"
-#include "mesh/thickness.hpp"
 
 namespace rejoin::mesh {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// Closed box of the given full sizes, every side cut into cells x cells quads, z moved by `bump` on the top.
-template <class Bump>
-Mesh box(const glm::vec3& size, int cells, Bump bump) {
-  Mesh mesh;
-  const auto side = [&](glm::vec3 corner, glm::vec3 u, glm::vec3 v, bool top) {
-    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-    for (int j = 0; j <= cells; ++j) {
-      for (int i = 0; i <= cells; ++i) {
-        glm::vec3 p = corner + u * (static_cast<float>(i) / static_cast<float>(cells)) +
-                      v * (static_cast<float>(j) / static_cast<float>(cells));
-        if (top) p.z += bump(p.x, p.y);
-        mesh.vertices.push_back(p);
-      }
-    }
-    const auto row = static_cast<std::uint32_t>(cells + 1);
-    for (std::uint32_t j = 0; j < static_cast<std::uint32_t>(cells); ++j) {
-      for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(cells); ++i) {
-        const std::uint32_t p = first + j * row + i;
-        mesh.faces.emplace_back(p, p + 1, p + row + 1);
-        mesh.faces.emplace_back(p, p + row + 1, p + row);
-      }
-    }
-  };
-  const glm::vec3 x(size.x, 0, 0);
-  const glm::vec3 y(0, size.y, 0);
-  const glm::vec3 z(0, 0, size.z);
-  side({0, 0, 0}, y, x, false);
-  side(z, x, y, true);
-  side({0, 0, 0}, x, z, false);
-  side(y, z, x, false);
-  side({0, 0, 0}, z, y, false);
-  side(x, y, z, false);
-  return mesh;
-}
-
-float flat(float /*x*/, float /*y*/) {
-  return 0.0F;
-}
-
-/// A quarter of a thick cylinder shell: outer radius 50, wall 5, height 60; a sherd with known fracture surfaces.
-Mesh shell(int around, int up) {
-  const auto point = [&](double angle, double r, double h) {
-    return glm::vec3(r * std::cos(angle), r * std::sin(angle), h);
-  };
-  Mesh mesh;
-  const auto sheet = [&](int n, int m, const auto& at, bool flip) {
-    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-    for (int j = 0; j <= m; ++j) {
-      for (int i = 0; i <= n; ++i)
-        mesh.vertices.push_back(at(static_cast<double>(i) / n, static_cast<double>(j) / m));
-    }
-    const auto row = static_cast<std::uint32_t>(n + 1);
-    for (std::uint32_t j = 0; j < static_cast<std::uint32_t>(m); ++j) {
-      for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(n); ++i) {
-        const std::uint32_t p = first + j * row + i;
-        glm::uvec3 a(p, p + 1, p + row + 1);
-        glm::uvec3 b(p, p + row + 1, p + row);
-        if (flip) {
-          std::swap(a.y, a.z);
-          std::swap(b.y, b.z);
-        }
-        mesh.faces.push_back(a);
-        mesh.faces.push_back(b);
-      }
-    }
-  };
-  const double quarter = kPi / 2;
-  sheet(
-      around, up, [&](double s, double t) { return point(s * quarter, 50, 60 * t); }, false);
-  sheet(
-      around, up, [&](double s, double t) { return point(s * quarter, 45, 60 * t); }, true);
-  sheet(
-      around, 6, [&](double s, double t) { return point(s * quarter, 45 + 5 * t, 60); }, true);
-  sheet(
-      around, 6, [&](double s, double t) { return point(s * quarter, 45 + 5 * t, 0); }, false);
-  sheet(
-      6, up, [&](double s, double t) { return point(0, 45 + 5 * s, 60 * t); }, false);
-  sheet(
-      6, up, [&](double s, double t) { return point(quarter, 45 + 5 * s, 60 * t); }, true);
-  return mesh;
-}
+using test::box;
+using test::flat;
+using test::shell;
 
 TEST(Samples, DensityDoesNotDependOnTheTessellation) {
   // The box's top has 16 times as many triangles an area as a coarse box's; both get the same samples an area.
@@ -382,143 +303,6 @@ TEST(Facets, EveryFaceOfASideBelongsToItsFacet) {
              glm::dot(glm::dvec3(normals[f]), s.facets[static_cast<std::size_t>(facets[f])].normal) > 0.9;
   }
   EXPECT_GT(right, facets.size() * 95 / 100);
-}
-
-/// The mesh with every face in the colour of its facet, corners not shared, as a painting program saves it.
-Mesh painted_by(const Mesh& mesh, const std::vector<glm::u8vec3>& colour_of_face) {
-  Mesh painted;
-  painted.origin = mesh.origin;
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    const auto first = static_cast<std::uint32_t>(painted.vertices.size());
-    for (int corner = 0; corner < 3; ++corner) {
-      painted.vertices.push_back(mesh.vertices[mesh.faces[f][corner]]);
-      painted.colours.push_back(colour_of_face[f]);
-    }
-    painted.faces.emplace_back(first, first + 1, first + 2);
-  }
-  return painted;
-}
-
-TEST(PaintedFacets, OneSideOfABoxInTwoColoursIsTwoFractureFacets) {
-  const Mesh mesh = box({40, 30, 20}, 20, flat);
-  std::vector<glm::u8vec3> colours;
-  for (const glm::uvec3& face : mesh.faces) {
-    const glm::vec3 middle = (mesh.vertices[face.x] + mesh.vertices[face.y] + mesh.vertices[face.z]) / 3.0F;
-    const bool top = middle.z > 19.9F;
-    colours.push_back(!top            ? glm::u8vec3(190)
-                      : middle.x < 10 ? glm::u8vec3(250, 20, 20)
-                                      : glm::u8vec3(20, 20, 250));
-  }
-  const auto found = segment(mesh);
-  const auto painted = painted_facets(found, mesh.origin, painted_by(mesh, colours));
-  ASSERT_TRUE(painted);
-  EXPECT_EQ(painted->left_out, 0U);
-  const Segmentation* s = &painted->segmentation;
-  std::vector<const Facet*> fracture;
-  for (const Facet& facet : s->facets) {
-    if (facet.fracture) fracture.push_back(&facet);
-  }
-  ASSERT_EQ(fracture.size(), 2U);
-  EXPECT_NEAR(fracture[0]->area, 30 * 30, 0.06 * 900);  // a row of samples at the edges may go either way
-  EXPECT_NEAR(fracture[1]->area, 10 * 30, 0.12 * 300);
-  EXPECT_GT(fracture[1]->normal.z, 0.99);
-  EXPECT_EQ(s->facets.size(), 2U + 5U);  // the other sides are original surface now
-  EXPECT_TRUE(s->creased.facets.empty());
-  for (const std::uint32_t i : fracture[0]->samples) EXPECT_EQ(s->surface[i], Surface::Fracture);
-}
-
-TEST(PaintedFacets, ColourOnAFewFacesIsNoFacetAndCounted) {
-  const Mesh mesh = box({40, 30, 20}, 20, flat);
-  std::vector<glm::u8vec3> colours(mesh.faces.size(), {250, 20, 20});
-  colours.front() = {20, 20, 250};  // one of 4,800 faces
-  const auto painted = painted_facets(segment(mesh), mesh.origin, painted_by(mesh, colours));
-  ASSERT_TRUE(painted);
-  EXPECT_EQ(painted->segmentation.facets.size(), 1U);
-  EXPECT_EQ(painted->left_out, 1U);
-}
-
-// Nothing lies behind a scan from one side; where a user says what is broken, that is no sign of a wall.
-TEST(PaintedFacets, WhatIsPaintedIsNoWallThoughNothingLiesBehindIt) {
-  const Mesh whole = box({40, 30, 20}, 20, flat);
-  std::vector<std::uint32_t> top;
-  for (std::uint32_t f = 0; f < whole.faces.size(); ++f) {
-    const glm::uvec3& face = whole.faces[f];
-    if (std::min({whole.vertices[face.x].z, whole.vertices[face.y].z, whole.vertices[face.z].z}) > 19.9F)
-      top.push_back(f);
-  }
-  const Mesh mesh = submesh(whole, top);
-  const Segmentation found = segment(mesh);
-  EXPECT_EQ(unbacked_share(found), 1.0);
-  EXPECT_LT(unbacked_share(segment(whole)), 0.01);
-  const std::vector<glm::u8vec3> colours(mesh.faces.size(), {250, 20, 20});
-  const auto painted = painted_facets(found, mesh.origin, painted_by(mesh, colours));
-  ASSERT_TRUE(painted);
-  EXPECT_EQ(unbacked_share(painted->segmentation), 0.0);
-}
-
-TEST(PaintedFacets, FacetsThatNobodyChangedAreThereAgain) {
-  const Mesh mesh = box({60, 1, 1}, 20, flat);  // a rod, whose ends are hardly larger than the smallest facet
-  const Segmentation found = segment(mesh);
-  ASSERT_EQ(found.facets.size(), 6U);
-  const std::vector<int> facets = facet_of_faces(found, sample_of_faces(found, mesh));
-  std::vector<glm::u8vec3> colours;
-  for (const int facet : facets) {
-    colours.push_back(facet < 0 ? glm::u8vec3(60) : glm::u8vec3(250, 30 * facet, 255 - 30 * facet));
-  }
-  const auto painted = painted_facets(found, mesh.origin, painted_by(mesh, colours));
-  ASSERT_TRUE(painted);
-  EXPECT_EQ(painted->segmentation.facets.size(), found.facets.size());
-  EXPECT_EQ(painted->left_out, 0U);
-}
-
-TEST(PaintedFacets, PaintOfAnotherOriginIsFound) {
-  Mesh mesh = shell(60, 40);
-  mesh.origin = {1000, -500, 20};
-  const auto found = segment(mesh);
-  Mesh painted = painted_by(mesh, std::vector<glm::u8vec3>(mesh.faces.size(), {250, 20, 20}));
-  for (glm::vec3& v : painted.vertices) v += glm::vec3(7, 8, 9);
-  painted.origin -= glm::dvec3(7, 8, 9);
-  const auto by_paint = painted_facets(found, mesh.origin, painted);
-  ASSERT_TRUE(by_paint);
-  const Segmentation* s = &by_paint->segmentation;
-  ASSERT_EQ(s->facets.size(), 1U);
-  EXPECT_TRUE(s->facets[0].fracture);
-  EXPECT_EQ(s->facets[0].samples.size(), s->samples.size());
-}
-
-TEST(PaintedFacets, PaintOfAnotherPieceIsRefused) {
-  const Mesh mesh = shell(60, 40);
-  const Mesh other = box({40, 30, 20}, 20, flat);
-  const auto paint = painted_by(other, std::vector<glm::u8vec3>(other.faces.size(), {250, 20, 20}));
-  EXPECT_FALSE(painted_facets(segment(mesh), mesh.origin, paint));
-}
-
-TEST(Thickness, SolidBoxHasNoWall) {
-  const Mesh mesh = box({40, 30, 20}, 20, flat);
-  EXPECT_EQ(segment(mesh).wall_thickness, 0.0);
-}
-
-TEST(Thickness, PlateHasItsThickness) {
-  EXPECT_NEAR(segment(box({60, 50, 4}, 30, flat)).wall_thickness, 4.0, 0.1);
-}
-
-TEST(Thickness, SmallSherdOfAThickVesselHasItsWallAlsoWhereItBends) {
-  Mesh sherd = box({40, 30, 7}, 40, flat);
-  EXPECT_NEAR(segment(sherd).wall_thickness, 7.0, 0.2);
-  // From its bottom to its side: both walls bend by 50 degrees.
-  const float slope = std::tan(glm::radians(25.0F));
-  for (glm::vec3& v : sherd.vertices) v.z += slope * std::abs(v.x - 20.0F);
-  const Segmentation bent = segment(sherd);
-  EXPECT_NEAR(bent.wall_thickness, 7.0 * std::cos(glm::radians(25.0)), 0.2);
-  double walls = 0.0;
-  for (const Facet& facet : bent.facets) walls += facet.fracture ? 0.0 : facet.area;
-  EXPECT_NEAR(walls / surface_area(sherd), 0.7, 0.12);
-}
-
-TEST(Thickness, SlabWithABrokenSideHasNoWall) {
-  const Mesh slab =
-      box({40, 30, 7}, 60, [](float x, float y) { return 1.2F * std::sin(0.9F * x) * std::sin(0.8F * y); });
-  EXPECT_EQ(segment(slab).wall_thickness, 0.0);
 }
 
 }  // namespace
