@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "match/strip.hpp"
+
 namespace rejoin::match {
 namespace {
 
@@ -147,6 +149,7 @@ FacetPatch cut_patch(const mesh::Mesh& mesh, const std::vector<int>& facet_of_fa
   for (auto& v : part.vertices) v = glm::vec3((glm::dvec3(v) - patch.centre) * patch.frame);
   patch.triangles = zbuffer::Triangles(part);
   patch.points = std::move(part.vertices);
+  measure_across(patch);
   return patch;
 }
 

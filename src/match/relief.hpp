@@ -19,7 +19,8 @@ struct FacetPatch {
   glm::dvec3 centre{0.0};         ///< relative to the mesh's origin
   double length = 0;              ///< extents of the points along x and y, mesh units
   double width = 0;
-  double area = 0;  ///< squared mesh units, from the segmentation
+  double area = 0;    ///< squared mesh units, from the segmentation
+  double across = 0;  ///< mean width, mesh units; of a strip that is bent across its course (match/strip.hpp)
 };
 
 /// \param facet_of_face  what mesh::facet_of_faces() gave for `mesh`

@@ -9,11 +9,13 @@ namespace rejoin::match {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kElongated = 3.0;  // length over mean width from which a facet is a strip
+constexpr double kElongated = 3.0;  // length over width from which a facet is a strip
 constexpr double kStretch =
     0.5;  // of the shorter strip: where less than that joins, its course does not count
 constexpr std::size_t kStretches = 32;
-constexpr double kWidthReach = 1.5;  // widths around a point whose area tells the width
+constexpr std::size_t kPointsAsked = 1000;
+constexpr std::size_t kDiscs = 32;
+constexpr double kDisc = 1.5;  // radius of those that tell the width, widths
 constexpr int kWidthRounds = 4;
 constexpr double kAstray = 0.25;  // radians, by which stretches that join may be turned
 constexpr double kApart = 0.5;    // of the mean width, by which their bends may part at their ends
@@ -25,7 +27,7 @@ struct Course {
 };
 
 bool is_strip(const FacetPatch& patch) {
-  return patch.length > kElongated * mean_width(patch);
+  return patch.length > kElongated * patch.across;
 }
 
 /// The points of a stretch, relative to their mean.
@@ -80,26 +82,29 @@ std::vector<Course> courses(const FacetPatch& strip, double length) {
 
 }  // namespace
 
-double mean_width(const FacetPatch& patch) {
-  const double straight = patch.area / std::max(patch.length, 1e-30);
-  const std::size_t count = std::min(kStretches, patch.points.size());
-  if (count == 0) return straight;
-  const double a_point = patch.area / static_cast<double>(patch.points.size());
-  double width = straight;
-  std::vector<double> widths(count);
+void measure_across(FacetPatch& patch) {
+  patch.across = patch.area / std::max(patch.length, 1e-30);
+  if (!is_strip(patch) || patch.points.empty()) return;
+  const std::size_t step = patch.points.size() / kPointsAsked + 1;
+  std::vector<glm::vec2> points;
+  for (std::size_t k = 0; k < patch.points.size(); k += step) points.emplace_back(patch.points[k]);
+  const double a_point = patch.area / static_cast<double>(points.size());
+  const std::size_t discs = std::min(kDiscs, points.size());
+  const double straight = patch.across;
+  std::vector<double> widths(discs);
   for (int round = 0; round < kWidthRounds; ++round) {
-    const double reach = kWidthReach * width;
-    for (std::size_t k = 0; k < count; ++k) {
-      const glm::vec2 middle(patch.points[k * patch.points.size() / count]);
-      const auto near = std::ranges::count_if(patch.points, [&](const glm::vec3& point) {
-        const glm::vec2 from = glm::vec2(point) - middle;
-        return static_cast<double>(glm::dot(from, from)) < reach * reach;
+    const double reach = kDisc * patch.across;
+    const auto squared = static_cast<float>(reach * reach);
+    for (std::size_t k = 0; k < discs; ++k) {
+      const glm::vec2 middle = points[k * points.size() / discs];
+      const auto near = std::ranges::count_if(points, [&](const glm::vec2& point) {
+        const glm::vec2 from = point - middle;
+        return glm::dot(from, from) < squared;
       });
       widths[k] = a_point * static_cast<double>(near) / (2.0 * reach);
     }
-    width = std::min(straight, median(widths));
+    patch.across = std::min(straight, median(widths));
   }
-  return width;
 }
 
 bool are_strips(const FacetPatch& a, const FacetPatch& b) {
@@ -107,7 +112,7 @@ bool are_strips(const FacetPatch& a, const FacetPatch& b) {
 }
 
 std::vector<double> turns_along(const FacetPatch& a, const FacetPatch& b, double step) {
-  const double wide = std::max(mean_width(a), mean_width(b));
+  const double wide = std::max(a.across, b.across);
   const double length = std::max(kStretch * std::min(a.length, b.length), kElongated * wide);
   const double alike = kApart * wide / (0.25 * length * length);
   const int count = static_cast<int>(std::ceil(2.0 * kPi / step));

@@ -7,8 +7,9 @@
 
 namespace rejoin::match {
 
-/// Area over length, mesh units.
-double mean_width(const FacetPatch& patch);
+/// Sets `across` from the other fields: area over length; if that makes the patch a strip, the area within a disc around one of its
+/// points, over the disc's diameter, the median of 32 such, as the chord of a bent strip is shorter than the strip.
+void measure_across(FacetPatch& patch);
 
 /// Whether both facets are so much longer than wide that they can join along each other only.
 bool are_strips(const FacetPatch& a, const FacetPatch& b);

@@ -33,7 +33,7 @@ constexpr double kSmallFacet = 0.02;  // of the largest facet's area: too small 
 /// Pixel size of the maps, mesh units.
 double pitch_for(const FacetPatch& a, const FacetPatch& b, double resolution) {
   const double finer = are_strips(a, b)
-                           ? std::min(mean_width(a), mean_width(b)) / kAcross
+                           ? std::min(a.across, b.across) / kAcross
                            : std::max(std::sqrt(std::max(a.area, b.area)) / kLarger, kFine * resolution);
   const double pitch = std::min(std::sqrt(std::min(a.area, b.area)) / kSide, finer);
   return std::max(pitch, std::sqrt(std::max(a.length * a.width, b.length * b.width)) / kMost);
@@ -208,23 +208,38 @@ SweepResult correlate_patches(const Task& task, double resolution, const SweepOp
   return result;
 }
 
-/// The facet of every face of the coarse level, -1 on the worn edges of breaks, which lie along each other anywhere.
-std::vector<int> unworn(const mesh::Segmentation& s, std::vector<int> facet_of_face,
+/// The facet of every face of the coarse level, -1 on the worn edges of breaks, which lie along each other anywhere; facets of
+/// which hardly more than the edges is left are whole.
+std::vector<int> unworn(const mesh::Segmentation& s, const std::vector<int>& facet_of_face,
                         const std::vector<int>& sample_of_face) {
   std::vector<glm::vec3> walls;
   for (std::size_t i = 0; i < s.samples.size(); ++i) {
     if (s.surface[i] == mesh::Surface::Original) walls.push_back(s.samples.points[i]);
   }
   const mesh::Neighbours near_walls(walls, static_cast<float>(kWorn * s.wall_thickness));
+  std::vector<int> rest = facet_of_face;
+  std::vector<std::size_t> all(s.facets.size(), 0);
+  std::vector<std::size_t> left(s.facets.size(), 0);
   std::vector<std::uint32_t> near;
-  for (std::size_t f = 0; f < facet_of_face.size(); ++f) {
-    if (facet_of_face[f] < 0) continue;
-    const auto i = static_cast<std::size_t>(sample_of_face[f]);
-    if (s.surface[i] != mesh::Surface::Fracture) continue;
-    near_walls.of(s.samples.points[i], near);
-    if (!near.empty()) facet_of_face[f] = -1;
+  for (std::size_t f = 0; f < rest.size(); ++f) {
+    if (rest[f] < 0) continue;
+    const auto facet = static_cast<std::size_t>(rest[f]);
+    if (!s.facets[facet].fracture) continue;
+    ++all[facet];
+    near_walls.of(s.samples.points[static_cast<std::size_t>(sample_of_face[f])], near);
+    if (near.empty()) {
+      ++left[facet];
+    } else {
+      rest[f] = -1;
+    }
   }
-  return facet_of_face;
+  for (std::size_t f = 0; f < rest.size(); ++f) {
+    if (facet_of_face[f] < 0) continue;
+    const auto facet = static_cast<std::size_t>(facet_of_face[f]);
+    if (static_cast<double>(left[facet]) < kLeastUnworn * static_cast<double>(all[facet]))
+      rest[f] = facet_of_face[f];
+  }
+  return rest;
 }
 
 /// The facets of one cut that may join.
@@ -236,19 +251,16 @@ std::vector<SweptFacet> candidates(const Fragment& fragment, const mesh::Cut& cu
   for (const auto& facet : cut.facets) {
     if (facet.fracture) largest = std::max(largest, facet.area);
   }
-  const auto facet_of_face = mesh::facet_of_faces(cut, fragment.sample_of_face);
-  const bool thin = fragment.facets.wall_thickness > 0;
-  const auto within_edges =
-      thin ? unworn(fragment.facets, facet_of_face, fragment.sample_of_face) : facet_of_face;
+  std::vector<int> facet_of_face = mesh::facet_of_faces(cut, fragment.sample_of_face);
+  if (fragment.facets.wall_thickness > 0)
+    facet_of_face = unworn(fragment.facets, facet_of_face, fragment.sample_of_face);
   std::vector<SweptFacet> list;
   for (int f = 0; f < static_cast<int>(cut.facets.size()); ++f) {
     const auto& facet = cut.facets[static_cast<std::size_t>(f)];
     const bool wanted = chosen.empty() ? facet.fracture && facet.area > kSmallFacet * largest
                                        : std::find(chosen.begin(), chosen.end(), first + f) != chosen.end();
     if (!wanted) continue;
-    list.push_back({first + f, cut_patch(fragment.coarse, within_edges, cut, f)});
-    if (thin && list.back().patch.area < kLeastUnworn * facet.area)
-      list.back().patch = cut_patch(fragment.coarse, facet_of_face, cut, f);
+    list.push_back({first + f, cut_patch(fragment.coarse, facet_of_face, cut, f)});
     if (list.back().patch.points.empty()) list.pop_back();
   }
   return list;

@@ -27,7 +27,7 @@ struct SweepOptions {
   std::vector<int> facets_b;
   std::optional<Near> near;     ///< only hits that hold near a rough pose
   double turn_step_px = 2.0;    ///< how far the end of the shorter facet moves between turns, pixels
-  int per_pair_of_facets = 48;  ///< peaks kept a pair of facets
+  int per_pair_of_facets = 24;  ///< peaks kept a pair of facets
   int most = 600;               ///< peaks kept in all
   int most_thin = 400;          ///< the same where both pieces are thin: their strips tell more
 };

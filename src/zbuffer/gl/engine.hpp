@@ -42,7 +42,7 @@ class Engine {
   /// The program of these stages, compiled once.  \pre a Session lives
   GLuint program(const std::vector<Stage>& stages, const std::string& defines);
 
-  /// Depth maps that the drawings of a context take turns in: making room for them takes as long as a thousand poses.
+  /// Depth maps that the drawings of a context take turns in, as every pair has drawings of its own and making room takes long.
   struct Maps {
     Buffer buffer;
     std::size_t bytes = 0;
