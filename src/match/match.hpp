@@ -53,18 +53,20 @@ struct Options {
 struct Fragment {
   std::string path;
   mesh::Mesh surface;  ///< triangles at full resolution: the scan after clean-up, or the surface of its cloud
-  mesh::Mesh coarse;   ///< a level of detail for depth maps: at most 40,000 faces
-  mesh::Segmentation facets;  ///< of `surface`
+  mesh::Mesh coarse;   ///< a level of detail for depth maps: at most 40,000 faces; of a noisy scan smoothed
+  mesh::Segmentation facets;  ///< of `surface`, of a noisy scan smoothed
   double diameter = 0;        ///< mesh units
   double resolution = 0;      ///< sample spacing, mesh units
   double noise = 0;           ///< of the scan, mesh units (mesh/noise.hpp)
+  double noise_left = 0;      ///< of it, in `coarse` and `facets` of a noisy scan, mesh units; else 0
   std::optional<glm::dvec3>
       middle;  ///< view_centre() of `coarse`, where it is known: it takes time at every pair else
   std::vector<int>
       sample_of_face;  ///< mesh::sample_of_faces() of `coarse`; samples stay when facets are painted
   std::vector<std::string>
       warnings;  ///< what was mended when its file was read, and what may keep joins from being found
-  std::vector<StageTime> stages;  ///< surface (of a cloud), coarse, facets; load where a file was read
+  std::vector<StageTime>
+      stages;  ///< surface (of a cloud), smooth (of a noisy scan), coarse, facets; load where a file was read
 };
 
 /// Whether both are sherds, thin pieces with a wall thickness of their own.

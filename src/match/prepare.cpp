@@ -10,6 +10,7 @@
 #include "match/pose_space.hpp"
 #include "mesh/bodies.hpp"
 #include "mesh/noise.hpp"
+#include "mesh/smooth.hpp"
 #include "mesh/surface.hpp"
 #include "mesh/table.hpp"
 
@@ -19,6 +20,7 @@ namespace {
 constexpr std::size_t kCoarseFaces = 40000;
 /// Edges across a wall: with fewer, a break has hardly any shape to be known by (docs/results.md, coarse meshes of sherds).
 constexpr double kEdgesAcross = 3.5;
+constexpr double kNoisy = 0.1;        // of the points' spacing: what is left of less hides in the tolerance
 constexpr double kFromOneSide = 0.5;  // share of a surface without anything behind it
 
 /// Of equilateral triangles as large as the surface's are on average.
@@ -72,11 +74,11 @@ void doubt_table(Fragment& fragment) {
 }  // namespace
 
 double contact_tolerance(const Fragment& a, const Fragment& b) {
-  constexpr double kNoiseInGaps = 2.0;  // deviations of gaps by the scans' noise alone that still touch
+  constexpr double kNoiseInGaps = 3.0;  // deviations of gaps by what is left of noise that still touch
   const double wall = thinner_wall(a, b);
   const double spacing = std::max(a.facets.samples.spacing, b.facets.samples.spacing);
   return std::max({wall > 0 ? 0.05 * wall : 0.15 * spacing, 0.3 * std::max(a.resolution, b.resolution),
-                   kNoiseInGaps * std::hypot(a.noise, b.noise)});
+                   kNoiseInGaps * std::hypot(a.noise_left, b.noise_left)});
 }
 
 mesh::Mesh surface_of(const std::string& path, mesh::Mesh scan) {
@@ -94,15 +96,21 @@ Fragment prepare(std::string path, mesh::Mesh scan, const Context& context) {
   Stopwatch clock(fragment.stages);
   fragment.surface = surface_of(fragment.path, std::move(scan));
   clock.lap("surface");
-  fragment.coarse = fragment.surface.faces.size() > kCoarseFaces
-                        ? mesh::simplify(fragment.surface, kCoarseFaces)
-                        : fragment.surface;
-  fragment.middle = view_centre(fragment.coarse);
-  clock.lap("coarse");
   fragment.diameter = mesh::diameter(fragment.surface);
   fragment.resolution = mesh::resolution(fragment.surface);
   fragment.noise = mesh::noise(fragment.surface);
-  fragment.facets = mesh::segment(fragment.surface, fragment.diameter);
+  const bool noisy = fragment.noise > kNoisy * fragment.resolution;
+  mesh::Mesh even;
+  if (noisy) {
+    even = mesh::smooth(fragment.surface, mesh::kSmoothRadius * fragment.resolution);
+    fragment.noise_left = mesh::kNoiseLeft * fragment.noise;
+  }
+  clock.lap("smooth");
+  const mesh::Mesh& matched = noisy ? even : fragment.surface;
+  fragment.coarse = matched.faces.size() > kCoarseFaces ? mesh::simplify(matched, kCoarseFaces) : matched;
+  fragment.middle = view_centre(fragment.coarse);
+  clock.lap("coarse");
+  fragment.facets = mesh::segment(matched, fragment.diameter);
   fragment.sample_of_face = mesh::sample_of_faces(fragment.facets, fragment.coarse);
   doubt_coarse_walls(fragment);
   doubt_scans_from_one_side(fragment);

@@ -8,6 +8,7 @@
 #include "core/parallel.hpp"
 #include "core/random.hpp"
 #include "mesh/load.hpp"
+#include "mesh/point_index.hpp"
 #include "mesh/surface.hpp"
 #include "prepared_pair.hpp"
 
@@ -37,6 +38,28 @@ TEST(Prepare, TellsOfAMeshTooCoarseForItsWall) {
   const Fragment coarse = prepare("coarse", mesh::simplify(scan, 2000), Context{});
   ASSERT_EQ(coarse.warnings.size(), 1U);
   EXPECT_NE(coarse.warnings[0].find("coarse: its mesh has "), std::string::npos) << coarse.warnings[0];
+}
+
+/// Share of the samples that are classed as the nearest ones of another scan of the same piece are.
+double alike(const mesh::Segmentation& scan, const mesh::Segmentation& other) {
+  const mesh::PointIndex index(other.samples.points);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < scan.samples.size(); ++i)
+    count += scan.surface[i] == other.surface[index.nearest(scan.samples.points[i])->first] ? 1 : 0;
+  return static_cast<double>(count) / static_cast<double>(scan.samples.size());
+}
+
+TEST(Prepare, TellsBreaksFromWallsInANoisyScan) {
+  mesh::Mesh scan = mesh::load(std::string(REJOIN_SOURCE_DIR) + "/meshes/bowl/a.drc").mesh;
+  const Fragment clean = prepare("clean", scan, Context{});
+  EXPECT_EQ(clean.noise_left, 0.0);
+  Random random(7);
+  for (glm::vec3& v : scan.vertices)
+    v += glm::vec3(glm::dvec3(random.normal(), random.normal(), random.normal()) * 0.3 * clean.resolution);
+  const Fragment noisy = prepare("noisy", scan, Context{});
+  EXPECT_EQ(noisy.surface.vertices, scan.vertices);  // what is written and shown is the scan
+  EXPECT_GT(noisy.noise_left, 0.0);
+  EXPECT_GT(alike(noisy.facets, clean.facets), 0.93);
 }
 
 TEST(Prepare, TellsOfAScanFromOneSideThatIsTakenForASolidPiece) {

@@ -1,0 +1,118 @@
+#include "mesh/smooth.hpp"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <vector>
+
+#include "core/parallel.hpp"
+#include "core/rigid.hpp"
+#include "mesh/area_normals.hpp"
+#include "mesh/neighbours.hpp"
+
+namespace rejoin::mesh {
+namespace {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Lists = std::vector<std::vector<std::uint32_t>>;
+
+constexpr int kRounds = 2;           // the first finds the normals that the second needs
+constexpr int kNormalRounds = 2;     // a single normal of a noisy scan leans by 30 degrees and more
+constexpr float kSameSide = 0.2F;    // cosine to the normals that are averaged,
+constexpr float kSmooth = 0.7F;      // and to those of the points that a quadric is laid through
+constexpr double kSpread = 0.3;      // of the radius: deviation of the weights
+constexpr std::size_t kEnough = 12;  // for the six unknowns of a quadric
+
+Lists neighbours_of(const std::vector<glm::vec3>& points, float radius) {
+  const Neighbours neighbours(points, radius);
+  Lists lists(points.size());
+  parallel_for(points.size(), 256, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) neighbours.of(points[i], lists[i]);
+  });
+  return lists;
+}
+
+glm::vec3 unit_or(const glm::vec3& vector, const glm::vec3& other) {
+  const float length = glm::length(vector);
+  return length > 0.0F ? vector / length : other;
+}
+
+/// Unit means over the neighbourhood.
+std::vector<glm::vec3> mean_normals(const Mesh& mesh, const Lists& near) {
+  std::vector<glm::vec3> normals = area_normals(mesh);
+  for (glm::vec3& normal : normals) normal = unit_or(normal, {0.0F, 0.0F, 1.0F});
+  for (int round = 0; round < kNormalRounds; ++round) {
+    std::vector<glm::vec3> means = normals;
+    parallel_for(means.size(), 512, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        glm::vec3 sum(0.0F);
+        for (const auto k : near[i]) {
+          if (glm::dot(normals[k], normals[i]) > kSameSide) sum += normals[k];
+        }
+        means[i] = unit_or(sum, normals[i]);
+      }
+    });
+    normals = std::move(means);
+  }
+  return normals;
+}
+
+/// Height of the quadric that fits the neighbourhood of a point best, above the point along its normal; 0 where they are too few.
+double height_above(const Mesh& mesh, const std::vector<glm::vec3>& normals,
+                    const std::vector<std::uint32_t>& near, std::size_t i, double radius) {
+  const glm::dmat3 frame = frame_of(glm::dvec3(normals[i]));
+  Matrix6 matrix = Matrix6::Zero();
+  Vector6 right = Vector6::Zero();
+  std::size_t count = 0;
+  for (const auto k : near) {
+    if (glm::dot(normals[k], normals[i]) < kSmooth) continue;
+    const glm::dvec3 q = glm::dvec3(mesh.vertices[k] - mesh.vertices[i]) * frame / radius;
+    const double weight = std::exp(-0.5 * glm::dot(q, q) / (kSpread * kSpread));
+    Vector6 row;
+    row << 1.0, q.x, q.y, q.x * q.x, q.x * q.y, q.y * q.y;
+    matrix.selfadjointView<Eigen::Lower>().rankUpdate(row, weight);
+    right += weight * q.z * row;
+    ++count;
+  }
+  if (count < kEnough) return 0.0;
+  matrix.diagonal().array() += 1e-6;
+  return radius * matrix.ldlt().solve(right)[0];
+}
+
+/// From every vertex to the middle of the ring of faces around it.
+std::vector<glm::vec3> to_ring_middles(const Mesh& mesh) {
+  std::vector<glm::vec3> sums(mesh.vertices.size(), glm::vec3(0.0F));
+  std::vector<float> counts(mesh.vertices.size(), 0.0F);
+  for (const glm::uvec3& face : mesh.faces) {
+    const glm::vec3 sum = mesh.vertices[face.x] + mesh.vertices[face.y] + mesh.vertices[face.z];
+    for (int k = 0; k < 3; ++k) {
+      sums[face[k]] += sum - 3.0F * mesh.vertices[face[k]];
+      counts[face[k]] += 2.0F;
+    }
+  }
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    if (counts[i] > 0.0F) sums[i] /= counts[i];
+  }
+  return sums;
+}
+
+}  // namespace
+
+Mesh smooth(const Mesh& mesh, double radius) {
+  Mesh even = mesh;
+  for (int round = 0; round < kRounds; ++round) {
+    const Lists near = neighbours_of(even.vertices, static_cast<float>(radius));
+    const std::vector<glm::vec3> normals = mean_normals(even, near);
+    std::vector<glm::vec3> moves = to_ring_middles(even);
+    parallel_for(moves.size(), 128, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        const auto height = static_cast<float>(height_above(even, normals, near[i], i, radius));
+        moves[i] += (height - glm::dot(moves[i], normals[i])) * normals[i];
+      }
+    });
+    for (std::size_t i = 0; i < moves.size(); ++i) even.vertices[i] += moves[i];
+  }
+  return even;
+}
+
+}  // namespace rejoin::mesh
