@@ -13,6 +13,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/match_json.hpp"
 #include "cli/match_options.hpp"
+#include "cli/outputs.hpp"
 #include "cli/pose_file.hpp"
 #include "core/files.hpp"
 #include "match/units.hpp"
@@ -113,7 +114,7 @@ class MatchCommand final : public Command {
     if (near_) options.near = read_pose(*near_);
     require_two_files(path_a_, path_b_);
     if (json_) require_writable_file(*json_);
-    if (out_) require_writable_folder(*out_);
+    if (out_) require_out();
     match::Fragment a = load_fragment(path_a_, console, context);
     match::Fragment b = load_fragment(path_b_, console, context);
     use_painted_facets(painted_, {&a, &b}, console);
@@ -159,6 +160,15 @@ class MatchCommand final : public Command {
         !options.directions_b.empty() || !options.facets_a.empty() || !options.facets_b.empty()) {
       throw UsageError("--propose rims", "takes no directions or facets", "leave out one of the two");
     }
+  }
+
+  void require_out() const {
+    std::vector<std::string> inputs = painted_;
+    inputs.insert(inputs.end(), {path_a_, path_b_});
+    for (const std::filesystem::path& file : report::match_outputs(*out_)) {
+      for (const std::string& input : inputs) require_apart("--out", file, input);
+    }
+    require_writable_folder(*out_);
   }
 
   std::vector<Rigid> proposals(const match::Fragment& a, const match::Fragment& b, Console& console,

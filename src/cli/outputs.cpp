@@ -30,7 +30,7 @@ bool is_read_from_folders(const fs::path& file, const CLI::App& command) {
 
 [[noreturn]] void refuse(const std::string& option, const fs::path& output) {
   throw UsageError(output.string(), "is read too and would be lost",
-                   fmt::format("give {} another file", option));
+                   fmt::format("give {} another place", option));
 }
 
 /// Whether writing `output` takes something of `input`, a file or a folder.

@@ -92,11 +92,17 @@ std::string difference_note(const match::JointError& error, bool overlap) {
                      short_number(error.slope), short_number(error.depth));
 }
 
+std::vector<std::filesystem::path> match_outputs(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const char* name : {kConvergence, kSheet, mesh::kJoinedGlb, mesh::kJoinedPly})
+    files.push_back(folder / name);
+  for (const char* name : kDepthMaps) files.push_back(folder / name);
+  return files;
+}
+
 void remove_match_outputs(const std::filesystem::path& folder) {
   std::error_code ignored;
-  for (const char* name : {kConvergence, kSheet, mesh::kJoinedGlb, mesh::kJoinedPly})
-    std::filesystem::remove(folder / name, ignored);
-  for (const char* name : kDepthMaps) std::filesystem::remove(folder / name, ignored);
+  for (const std::filesystem::path& file : match_outputs(folder)) std::filesystem::remove(file, ignored);
 }
 
 std::vector<std::filesystem::path> write_match_outputs(const std::filesystem::path& folder,

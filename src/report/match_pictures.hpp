@@ -17,6 +17,9 @@ struct MatchOutputOptions {
 /// \param overlap  whether the maps of the picture have a pixel in common
 std::string difference_note(const match::JointError& error, bool overlap);
 
+/// The files that write_match_outputs() may write.
+std::vector<std::filesystem::path> match_outputs(const std::filesystem::path& folder);
+
 /// Removes from the folder what write_match_outputs() writes.
 void remove_match_outputs(const std::filesystem::path& folder);
 

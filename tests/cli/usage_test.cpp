@@ -41,13 +41,15 @@ TEST(CommandLine, OutputsThatWouldTakeWhatIsReadAreRefused) {
   const std::string other = folder / "other.ply";
   const std::string piece = folder / "piece.csv";
   const std::string truth = folder / "truth.json";
-  for (const std::string& file : {scan, other, piece, truth}) write_file(file, "precious");
+  const std::string joined = folder / "joined.ply";
+  for (const std::string& file : {scan, other, piece, truth, joined}) write_file(file, "precious");
   std::filesystem::create_directory(folder / "elsewhere");
   const std::string link = folder / "elsewhere/link.json";
   std::filesystem::create_symlink(scan, link);
   const std::vector<std::vector<std::string>> commands{
       {"match", scan, other, "--json", other},
       {"match", scan, other, "--near", truth, "--json", truth},
+      {"match", joined, folder / "missing.ply", "--out", folder / "."},
       {"facets", scan, "--ply", folder / "./scan.ply"},
       {"assemble", folder / "elsewhere", "--layout", truth, "--json", truth},
       {"assemble", folder / ".", "--json", other},
@@ -61,7 +63,8 @@ TEST(CommandLine, OutputsThatWouldTakeWhatIsReadAreRefused) {
     EXPECT_EQ(finished.exit_code, 2) << command[0];
     EXPECT_NE(finished.err.find("is read too and would be lost"), std::string::npos) << finished.err;
   }
-  for (const std::string& file : {scan, other, piece, truth}) EXPECT_EQ(read_file(file), "precious") << file;
+  for (const std::string& file : {scan, other, piece, truth, joined})
+    EXPECT_EQ(read_file(file), "precious") << file;
 }
 
 class WrongUseTest : public ::testing::TestWithParam<WrongUse> {};
