@@ -16,6 +16,7 @@
 #include "cli/command.hpp"
 #include "cli/hints.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/outputs.hpp"
 #include "core/files.hpp"
 #include "core/words.hpp"
 #include "store/run.hpp"
@@ -122,7 +123,12 @@ class AssembleCommand final : public Command {
       throw UsageError(hints_.given(), "serves a folder of scans, this is a run",
                        "give it to rejoin batch, or leave it out");
     }
-    if (json_) require_writable_file(*json_);
+    if (json_) {
+      require_apart_from_run("--json", *json_,
+                             is_run(input_) || !out_ ? std::filesystem::path(input_) : kept_run(),
+                             kAssemblyName);
+      require_writable_file(*json_);
+    }
     if (out_) require_writable_folder(*out_);
   }
 

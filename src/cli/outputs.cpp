@@ -8,10 +8,14 @@
 #include <system_error>
 #include <vector>
 
+#include "batch/shelf.hpp"
+#include "batch/table.hpp"
+#include "cli/assemble_input.hpp"
 #include "cli/command.hpp"
 #include "core/files.hpp"
 #include "mesh/load.hpp"
 #include "outline/read.hpp"
+#include "store/run.hpp"
 
 namespace rejoin::cli {
 namespace fs = std::filesystem;
@@ -78,6 +82,21 @@ void require_folder(const CLI::Option& option, const std::string& value) {
 void require_apart(const std::string& option, const fs::path& output, const fs::path& input) {
   std::error_code ignored;
   if (fs::is_regular_file(output, ignored) && is_same(output, input)) refuse(option, output);
+}
+
+void require_apart_from_run(const std::string& option, const fs::path& output, const fs::path& run,
+                            const std::string& replaceable) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(output, ignored) || !is_run(run)) return;
+  const std::string name = fs::canonical(output, ignored).filename().string();
+  const fs::path folder = fs::canonical(output, ignored).parent_path();
+  const bool is_own = name.starts_with(store::kFileName) ||  // and what SQLite keeps beside it
+                      name == batch::kTableName || name == kAssemblyName;
+  if (is_same(folder, run / batch::kCacheName) || (is_own && name != replaceable && is_same(folder, run)))
+    throw UsageError(output.string(), "belongs to the run and would be lost",
+                     fmt::format("give {} another place", option));
+  for (const store::Fragment& fragment : store::Run::open(run).fragments())
+    require_apart(option, output, fragment.path);
 }
 
 void require_ending(const std::string& option, const std::optional<std::string>& file,

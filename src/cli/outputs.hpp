@@ -14,6 +14,13 @@ namespace rejoin::cli {
 void require_apart(const std::string& option, const std::filesystem::path& output,
                    const std::filesystem::path& input);
 
+/// For a file that goes beside a run, or into it.
+/// \param run          folder of a run, or of none (then nothing is refused)
+/// \param replaceable  name of a file in the run that the command writes anew; empty: none
+/// \throws UsageError the output is a file that the run consists of, or one of its scans
+void require_apart_from_run(const std::string& option, const std::filesystem::path& output,
+                            const std::filesystem::path& run, const std::string& replaceable);
+
 /// \throws UsageError an output's name does not end in `ending`, such as ".png"
 void require_ending(const std::string& option, const std::optional<std::string>& file,
                     const std::string& ending);

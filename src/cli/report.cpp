@@ -7,6 +7,7 @@
 
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
+#include "cli/outputs.hpp"
 #include "cli/run_report.hpp"
 #include "core/files.hpp"
 #include "store/run.hpp"
@@ -33,6 +34,7 @@ class ReportCommand final : public Command {
     static_cast<void>(store::Run::open(run_));  // what is no run is told as that, not as a place for its page
     const std::filesystem::path out =
         out_ ? std::filesystem::path(*out_) : store::folder_of(run_) / "report.html";
+    require_apart_from_run("--out", out, store::folder_of(run_), "");
     require_writable_file(out);
     const report::RunReport report = read_run(run_, options_.listed_pairs, console, context);
     const bool written = !context.cancelled() && report::write_run_report(report, out, context, options_);

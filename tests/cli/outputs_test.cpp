@@ -1,0 +1,56 @@
+/// Outputs that would take what is there already, and places that are made for them.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "planted_files.hpp"
+#include "store/run.hpp"
+
+namespace rejoin::cli::testing {
+namespace {
+namespace fs = std::filesystem;
+
+/// A run of two scans and no pairs, which nothing needs to be matched for.
+class Outputs : public ::testing::Test, protected PlantedFiles {
+ protected:
+  Outputs() {
+    fs::create_directories(run_ + "/fragments");
+    store::Run made = store::Run::write(run_);
+    store::Fragment scan;
+    std::vector<store::Fragment> scans;
+    for (const std::string& path : {a, b}) {
+      scan.path = path;
+      scan.name = scan.hash = fs::path(path).filename().string();
+      scans.push_back(scan);
+    }
+    made.begin({}, scans);
+    for (const char* name : {"/pairs.csv", "/assembly.json", "/fragments/x.drc"})
+      write_file(run_ + name, "precious");
+  }
+
+  static void expect_refused(const std::vector<std::string>& command, const std::string& output,
+                             const std::string& reason) {
+    const std::string before = read_file(output);
+    const Finished finished = run(command);
+    EXPECT_EQ(finished.exit_code, 2) << finished.err;
+    EXPECT_NE(finished.err.find(output + ": " + reason), std::string::npos) << finished.err;
+    EXPECT_TRUE(is_one_line(finished.err)) << finished.err;
+    EXPECT_EQ(read_file(output), before) << output;
+  }
+
+  const std::string run_ = folder / "run";
+};
+
+TEST_F(Outputs, NoPageOrAssemblyReplacesAFileOfTheRunOrAScan) {
+  for (const char* name : {"/run.sqlite", "/pairs.csv", "/assembly.json", "/fragments/x.drc"})
+    expect_refused({"report", run_, "--out", run_ + name}, run_ + name, "belongs to the run");
+  for (const char* name : {"/run.sqlite", "/pairs.csv", "/fragments/x.drc"})
+    expect_refused({"assemble", run_, "--json", run_ + name}, run_ + name, "belongs to the run");
+  expect_refused({"report", run_ + "/run.sqlite", "--out", a}, a, "is read too");
+  expect_refused({"assemble", run_, "--json", b}, b, "is read too");
+}
+
+}  // namespace
+}  // namespace rejoin::cli::testing
