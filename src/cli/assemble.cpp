@@ -129,7 +129,10 @@ class AssembleCommand final : public Command {
                              kAssemblyName);
       require_writable_file(*json_);
     }
-    if (out_) require_writable_folder(*out_);
+    if (out_) {
+      require_models_of_assembly(*out_);
+      require_writable_folder(*out_);
+    }
   }
 
   /// Where poses and joins go: into the run, where rejoin report looks for them, and where the user wants them.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cstdint>
 #include <regex>
 #include <set>
@@ -9,6 +10,7 @@
 #include <system_error>
 
 #include "cli/json_values.hpp"
+#include "core/error.hpp"
 #include "core/files.hpp"
 #include "core/utf8.hpp"
 #include "core/version.hpp"
@@ -24,6 +26,8 @@ constexpr std::size_t kLongestName = 200;
 constexpr const char* kProject = "assembled.mlp";
 constexpr const char* kPicture = "assembled.png";
 constexpr const char* kMatrices = "cloudcompare";
+
+constexpr std::array kModels{kProject, mesh::kAssembledGlb, mesh::kAssembledPly, kPicture};
 
 using nlohmann::ordered_json;
 
@@ -216,25 +220,40 @@ bool is_matrix(const std::filesystem::path& file) {
   return numbers == 16 && text.eof();
 }
 
+std::vector<std::filesystem::path> matrices_in(const std::filesystem::path& folder) {
+  std::error_code problem;
+  std::vector<std::filesystem::path> files;
+  for (std::filesystem::directory_iterator entry(folder, problem), end; !problem && entry != end;
+       entry.increment(problem)) {
+    if (is_matrix(entry->path())) files.push_back(entry->path());
+  }
+  return files;
+}
+
 /// Matrices of an earlier assembly, which would be taken for this one's.
 /// \param written  of this one
 void remove_other_matrices(const std::filesystem::path& folder, const std::set<std::string>& written) {
-  std::error_code problem;
-  std::vector<std::filesystem::path> others;
-  for (std::filesystem::directory_iterator entry(folder, problem), end; !problem && entry != end;
-       entry.increment(problem)) {
-    if (written.count(entry->path().filename().string()) == 0 && is_matrix(entry->path()))
-      others.push_back(entry->path());
+  std::error_code ignored;
+  for (const auto& file : matrices_in(folder)) {
+    if (written.count(file.filename().string()) == 0) std::filesystem::remove(file, ignored);
   }
-  for (const auto& other : others) std::filesystem::remove(other, problem);
 }
 
 /// The same of all that write_assembly() writes.
 void remove_earlier(const std::filesystem::path& folder) {
   std::error_code ignored;
-  for (const char* name : {kProject, mesh::kAssembledGlb, mesh::kAssembledPly, kPicture})
-    std::filesystem::remove(folder / name, ignored);
+  for (const char* name : kModels) std::filesystem::remove(folder / name, ignored);
   remove_other_matrices(folder / kMatrices, {});
+}
+
+void require_models_of_assembly(const std::filesystem::path& folder) {
+  if (!matrices_in(folder / kMatrices).empty()) return;
+  for (const char* name : kModels) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(folder / name, ignored)) continue;
+    throw IoError((folder / name).string(), "is of no earlier rejoin assemble and would be lost",
+                  "give --out another folder, or rename the file");
+  }
 }
 
 std::vector<std::filesystem::path> write_assembly(const std::filesystem::path& folder,

@@ -27,6 +27,10 @@ std::string assembly_json(const AssembleInput& input, const assembly::Constraint
 /// A MeshLab project of the scans' files at their poses.
 std::string meshlab_project(const AssembleInput& input, const assembly::Result& result);
 
+/// Whoever has a scan of such a name must not lose it.
+/// \throws IoError the folder has a file that write_assembly() would replace, and no matrices, which every assembly has
+void require_models_of_assembly(const std::filesystem::path& folder);
+
 /// assembled.glb, .ply, .mlp and .png, and a folder "cloudcompare" with a matrix a fragment; those of an earlier assembly there are
 /// removed.
 /// \return what was written; of the matrices the folder

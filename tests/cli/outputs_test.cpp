@@ -52,5 +52,21 @@ TEST_F(Outputs, NoPageOrAssemblyReplacesAFileOfTheRunOrAScan) {
   expect_refused({"assemble", run_, "--json", b}, b, "is read too");
 }
 
+TEST_F(Outputs, AssembleReplacesModelsOfAnAssemblyAlone) {
+  const std::string scan = folder / "assembled.ply";
+  write_file(scan, "precious");
+  const Finished refused = run({"assemble", folder / "", "--out", folder / ""});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_NE(refused.err.find("assembled.ply: is of no earlier rejoin assemble"), std::string::npos)
+      << refused.err;
+  EXPECT_TRUE(is_one_line(refused.err)) << refused.err;
+  EXPECT_EQ(read_file(scan), "precious");
+  fs::create_directory(folder / "cloudcompare");
+  write_file(folder / "cloudcompare/a.ply.txt", "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+  const Finished again = run({"assemble", folder / "", "--out", folder / ""});
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_NE(read_file(scan), "precious");
+}
+
 }  // namespace
 }  // namespace rejoin::cli::testing
