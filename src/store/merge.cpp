@@ -90,6 +90,26 @@ Whole survey(const std::vector<fs::path>& runs) {
   return whole;
 }
 
+void require_each_once(const std::vector<fs::path>& runs) {
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    for (std::size_t earlier = 0; earlier < k; ++earlier) {
+      std::error_code absent;  // which opening it tells better
+      if (fs::equivalent(folder_of(runs[k]), folder_of(runs[earlier]), absent))
+        throw StoreError(runs[k].string(), "is given twice", "give every run once");
+    }
+  }
+}
+
+/// A whole may grow in its place, but a shard would be one no longer, and its own command would refuse to go on with it.
+void require_no_shard(const fs::path& output) {
+  std::error_code ignored;
+  if (!fs::exists(output / kFileName, ignored)) return;
+  const std::string shard = Run::open(output).shard();
+  if (shard.empty()) return;
+  throw StoreError(output.string(), fmt::format("holds shard {}, and the whole would take its place", shard),
+                   "give another folder");
+}
+
 /// The whole's fragments, numbered by name, without pairs.
 void make_fragments(const fs::path& folder, const Whole& whole) {
   Run run = Run::write(folder);
@@ -183,7 +203,9 @@ class PartFolder {
 }  // namespace
 
 Merged merge(const std::vector<fs::path>& runs, const fs::path& output) {
+  require_each_once(runs);
   const Whole whole = survey(runs);
+  require_no_shard(output);
   require_writable_folder(output);
   const detail::WriteLock lock((output / detail::kLockName).string());
   const PartFolder part(output / "merge.part");

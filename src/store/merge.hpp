@@ -17,10 +17,11 @@ struct Merged {
 /// failure; fragments are numbered by name, as a single run
 /// over all of them numbers them.  The whole replaces what the output held, completely or not at all; who
 /// reads the output meanwhile goes on reading what it held.
-/// \param runs    folders of runs, at least one, made with the same parameters; the output may be one of them
+/// \param runs    folders of runs, at least one, made with the same parameters, each once; the output may be one of them unless it is
+///                a shard
 /// \param output  an existing folder
 /// \throws StoreError runs were made with other parameters or by another version, a fragment of the same name has another content in two of
-///         them, the output has pairs that none of the runs has, or a database cannot be used
+///         them, the output has pairs that none of the runs has or is a shard, a run is given twice, or a database cannot be used
 Merged merge(const std::vector<std::filesystem::path>& runs, const std::filesystem::path& output);
 
 }  // namespace rejoin::store

@@ -154,6 +154,19 @@ TEST_F(Merge, WholeCanBeOneOfItsParts) {
   EXPECT_EQ(merge({output(), shard("y", {"c", "d"}, 0.5)}, output()).pairs, 2U);
 }
 
+TEST_F(Merge, ShardStaysAShard) {
+  const fs::path x = shard("x", {"a", "b"}, 0.5);
+  EXPECT_THROW(merge({x}, x), StoreError);
+  EXPECT_THROW(merge({x, shard("y", {"c", "d"}, 0.5)}, x), StoreError);
+  EXPECT_EQ(store::Run::open(x).shard(), "x");
+}
+
+TEST_F(Merge, SameRunTwiceIsRefused) {
+  const fs::path x = shard("x", {"a", "b"}, 0.5);
+  EXPECT_THROW(merge({x, folder_ / "." / "x" / kFileName}, output()), StoreError);
+  EXPECT_FALSE(fs::exists(output()));
+}
+
 TEST_F(Merge, OtherParametersOrContentsAreRefusedAndNothingIsWritten) {
   Parameters other = kParameters;
   other.seed = 4;
