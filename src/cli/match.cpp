@@ -3,8 +3,10 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 
 #include "cli/arguments.hpp"
@@ -23,6 +25,10 @@
 
 namespace rejoin::cli {
 namespace {
+
+constexpr const char* kUnfinished =
+    "interrupted before the search was finished: verdict and score, of the best pose so far, are no finding";
+constexpr const char* kKept = " is kept as an earlier match wrote it";
 
 const Choices<bool> kProposers = {{"facets", false}, {"rims", true}};
 
@@ -62,11 +68,18 @@ std::string summary(const match::Result& result, bool near) {
   }
   const match::Candidate& best = result.candidates.front();
   const match::JointError& error = best.error;
-  return fmt::format("{}, score {:.3f}\n", name_of(result.verdict), best.score) + pose_text(best.pose) +
+  return fmt::format("{}{}, score {:.3f}\n", name_of(result.verdict),
+                     result.cancelled ? " so far (the search is not finished)" : "", best.score) +
+         pose_text(best.pose) +
          fmt::format("contact: area {:.4g}, median gap {}, penetration {:.3g} (in the scans' unit)\n",
                      error.contact_area, measured(error.gap_median, 3), error.penetration) +
          fmt::format("whole fragments: slope difference {}, ray-cast {}, overlap {}\n",
                      measured(error.slope, 4), measured(error.raycast, 4), percent(error.overlap));
+}
+
+bool is_there(const std::filesystem::path& file) {
+  std::error_code ignored;
+  return std::filesystem::exists(file, ignored);
 }
 
 /// What to tell of sizes that no two pieces of one object have; empty: nothing.
@@ -137,12 +150,17 @@ class MatchCommand final : public Command {
     told.insert(told.end(), b.warnings.begin(), b.warnings.end());
     told.insert(told.end(), doubts.begin(), doubts.end());
     result.warnings.insert(result.warnings.begin(), told.begin(), told.end());
-    if (result.cancelled) console.warning("interrupted; what follows is the best so far");
+    if (result.cancelled) {
+      console.warning(kUnfinished);
+      result.warnings.insert(result.warnings.begin(), kUnfinished);
+    }
     tell_times(console, a, b, result);
     const double seconds = seconds_since(begin);
-    if (json_) write_file(*json_, match_json(a, b, options, result, seconds));
+    const bool keep_json = json_ && result.cancelled && std::filesystem::is_regular_file(*json_);
+    if (json_ && !keep_json) write_file(*json_, match_json(a, b, options, result, seconds));
     console.result(summary(result, near_.has_value()));
-    if (json_) console.wrote(*json_);
+    if (keep_json) console.warning(*json_ + kKept);
+    if (json_ && !keep_json) console.wrote(*json_);
     if (out_) write_folder(console, a, b, result);
     return result.cancelled ? kInterrupted : kDone;
   }
@@ -180,20 +198,19 @@ class MatchCommand final : public Command {
     return poses;
   }
 
-  /// An interrupted run gets the joined model only: pictures take longer than a user who wants to stop will wait.
   void write_folder(Console& console, const match::Fragment& a, const match::Fragment& b,
                     const match::Result& result) const {
     const NothingToSave guard;
     std::vector<std::filesystem::path> files;
     if (!result.cancelled) {
       files = report::write_match_outputs(*out_, a, b, result);
-    } else {
-      report::remove_match_outputs(*out_);  // an earlier match's would be taken for this one's
-      if (!result.candidates.empty()) {
-        files.emplace_back(std::filesystem::path(*out_) / mesh::kJoinedPly);
-        mesh::save_scene(files[0],
-                         {{path_a_, &a.surface, Rigid{}}, {path_b_, &b.surface, result.candidates[0].pose}});
-      }
+    } else if (std::ranges::any_of(report::match_outputs(*out_), is_there)) {
+      console.warning(*out_ + kKept);
+    } else if (!result.candidates.empty()) {
+      // The joined model only: pictures take longer than a user who wants to stop will wait.
+      files.emplace_back(std::filesystem::path(*out_) / mesh::kJoinedPly);
+      mesh::save_scene(files[0],
+                       {{path_a_, &a.surface, Rigid{}}, {path_b_, &b.surface, result.candidates[0].pose}});
     }
     for (const std::filesystem::path& file : files) console.wrote(file);
   }

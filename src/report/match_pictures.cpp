@@ -84,6 +84,12 @@ std::vector<std::filesystem::path> write_joined(const std::filesystem::path& fol
   return files;
 }
 
+/// What an earlier match left would be taken for this one's.
+void remove_earlier(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  for (const std::filesystem::path& file : match_outputs(folder)) std::filesystem::remove(file, ignored);
+}
+
 }  // namespace
 
 std::string difference_note(const match::JointError& error, bool overlap) {
@@ -100,17 +106,12 @@ std::vector<std::filesystem::path> match_outputs(const std::filesystem::path& fo
   return files;
 }
 
-void remove_match_outputs(const std::filesystem::path& folder) {
-  std::error_code ignored;
-  for (const std::filesystem::path& file : match_outputs(folder)) std::filesystem::remove(file, ignored);
-}
-
 std::vector<std::filesystem::path> write_match_outputs(const std::filesystem::path& folder,
                                                        const match::Fragment& a, const match::Fragment& b,
                                                        const match::Result& result,
                                                        const MatchOutputOptions& options) {
   require_writable_folder(folder);
-  if (result.candidates.empty()) remove_match_outputs(folder);
+  if (result.candidates.empty()) remove_earlier(folder);
   const std::string name_a = file_name(a.path);
   const std::string name_b = file_name(b.path);
   std::vector<std::filesystem::path> files{folder / kConvergence};

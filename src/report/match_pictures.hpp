@@ -20,9 +20,6 @@ std::string difference_note(const match::JointError& error, bool overlap);
 /// The files that write_match_outputs() may write.
 std::vector<std::filesystem::path> match_outputs(const std::filesystem::path& folder);
 
-/// Removes from the folder what write_match_outputs() writes.
-void remove_match_outputs(const std::filesystem::path& folder);
-
 /// Writes the pictures and files of the best candidate:
 ///   match.png              the fragments opened, joined, their faces coloured by gap, a cut through the
 /// joint

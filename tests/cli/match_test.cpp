@@ -169,18 +169,30 @@ TEST_F(MatchCommand, MissingBackendIsOneLineAndExitsWithOne) {
 
 // The search is made far longer than the time until the signal comes; the limit of CTest ends a run that
 // ignores it.
-TEST_F(MatchCommand, InterruptWritesWhatWasFoundAndExitsWith130) {
+TEST_F(MatchCommand, InterruptWritesWhatWasFoundAsUnfinishedAndKeepsWhatIsThere) {
+  const std::vector<std::string> endless{"match",    a,     b,          "--json", json,           "--verbose",
+                                         "--search", "esa", "--chains", "256",    "--resolution", "512"};
+  const auto interrupted = [](const std::vector<std::string>& arguments) {
+    Running running(arguments);
+    EXPECT_TRUE(running.wait_for_stderr("b.ply: "));
+    running.interrupt();
+    return running.finish();
+  };
+  const Finished first = interrupted(endless);
+  EXPECT_EQ(first.exit_code, 130) << first.err;
+  const ordered_json result = ordered_json::parse(read_file(json));
+  EXPECT_EQ(result["search"]["interrupted"], true);
+  EXPECT_NE(result["warnings"].dump().find("before the search was finished"), std::string::npos) << result;
+
   std::filesystem::create_directory(folder / "result");
-  for (const char* earlier : {"result/match.png", "result/joined.glb"}) write_file(folder / earlier, "x");
-  Running running({"match", a, b, "--json", json, "--out", folder / "result", "--verbose", "--search", "esa",
-                   "--chains", "256", "--resolution", "512"});
-  ASSERT_TRUE(running.wait_for_stderr("b.ply: "));
-  running.interrupt();
-  const Finished finished = running.finish();
-  EXPECT_EQ(finished.exit_code, 130) << finished.err;
-  EXPECT_EQ(ordered_json::parse(read_file(json))["search"]["interrupted"], true);
-  EXPECT_FALSE(std::filesystem::exists(folder / "result/match.png")) << "would be taken for this match's";
-  EXPECT_FALSE(std::filesystem::exists(folder / "result/joined.glb"));
+  const std::string model = folder / "result/joined.glb";
+  for (const std::string& earlier : {json, model}) write_file(earlier, "earlier");
+  std::vector<std::string> again = endless;
+  again.insert(again.end(), {"--out", folder / "result"});
+  const Finished second = interrupted(again);
+  EXPECT_EQ(second.exit_code, 130) << second.err;
+  for (const std::string& earlier : {json, model}) EXPECT_EQ(read_file(earlier), "earlier") << earlier;
+  EXPECT_NE(second.err.find(json + " is kept"), std::string::npos) << second.err;
 }
 
 // A pipe that nobody writes to holds the program inside the loader; opening our end waits until it is there.
