@@ -82,6 +82,7 @@ class AssembleCommand final : public Command {
     hints_.read_into(matching, input_);
     const AssembleInput input = read_assemble_input(input_, keep, matching, console, context);
     if (context.cancelled()) return stopped(console);
+    require_no_loss(input, files);
     if (constraints) options_.constraints = read_constraints(*constraints, input.names, input.bad);
     const assembly::Result result = assembly::assemble(input.fragments, input.links, options_, context);
     console.end_progress();
@@ -102,7 +103,7 @@ class AssembleCommand final : public Command {
       for (const auto& file : write_assembly(*out_, input, result)) console.wrote(file);
     }
     if (result.cancelled) return kInterrupted;
-    return input.failed_now ? kFailure : kDone;
+    return input.failed_now || !input.lost.empty() ? kFailure : kDone;
   }
 
  private:
@@ -155,6 +156,20 @@ class AssembleCommand final : public Command {
       console.warning(fmt::format("{}; rejoin report will not find this assembly", error.what()));
     }
     return files;
+  }
+
+  /// An assembly without scans that an earlier one could place must not replace it.
+  static void require_no_loss(const AssembleInput& input, const std::vector<std::filesystem::path>& files) {
+    if (input.lost.empty()) return;
+    for (const std::filesystem::path& file : files) {
+      std::error_code ignored;
+      if (!std::filesystem::is_regular_file(file, ignored)) continue;
+      throw InputError(file.string(),
+                       fmt::format("is kept, as {} of the run cannot be used any more ({}{})",
+                                   counted(input.lost.size(), "scan"), input.lost.front(),
+                                   input.lost.size() == 1 ? "" : ", ..."),
+                       "mend what the warnings say, or remove the file to assemble the others");
+    }
   }
 
   ExitCode stopped(Console& console) const {

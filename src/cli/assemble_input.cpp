@@ -97,6 +97,7 @@ std::map<std::int64_t, std::size_t> load_all(const store::Run& run, const fs::pa
     if (!loaded[k].fragment) {
       console.warning(loaded[k].error);
       input.bad[fragment.name] = loaded[k].error;
+      if (fragment.state == store::FragmentState::Ready) input.lost.push_back(fragment.name);
       continue;
     }
     number[fragment.id] = input.names.size();

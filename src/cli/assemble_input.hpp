@@ -21,9 +21,10 @@ struct AssembleInput {
   std::vector<std::string> hashes;  ///< of their content
   std::vector<match::Fragment> fragments;
   std::vector<assembly::Link> links;
-  store::Remains remains;                  ///< of the run
-  std::vector<std::string> warnings;       ///< what else the user should know of the run
-  bool failed_now = false;                 ///< scans or pairs failed while a folder was matched; told
+  store::Remains remains;             ///< of the run
+  std::vector<std::string> warnings;  ///< what else the user should know of the run
+  bool failed_now = false;            ///< scans or pairs failed while a folder was matched; told
+  std::vector<std::string> lost;      ///< names of scans that were matched and cannot be used any more; told
   std::map<std::string, std::string> bad;  ///< fragments that cannot be used or are copies, with the reason
 };
 

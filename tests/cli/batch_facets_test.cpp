@@ -109,7 +109,10 @@ TEST_F(BatchFacets, TheRunKeepsThem) {
   const json kept = json::parse(read_file(run_ + "/assembly.json"))["fragments"]["b7.ply"];
   EXPECT_TRUE(kept.contains("scan")) << kept;
   fs::remove_all(run_ + "/fragments");
-  ASSERT_EQ(run({"assemble", run_}).exit_code, 0);
+  EXPECT_EQ(run({"assemble", run_}).exit_code, 1);
+  EXPECT_EQ(json::parse(read_file(run_ + "/assembly.json"))["fragments"]["b7.ply"], kept);
+  fs::remove(run_ + "/assembly.json");
+  EXPECT_EQ(run({"assemble", run_}).exit_code, 1);
   const json lost = json::parse(read_file(run_ + "/assembly.json"))["fragments"]["b7.ply"];
   EXPECT_EQ(lost["reason"], "b7-facets.ply: is kept in the run no longer; run rejoin batch again");
 }

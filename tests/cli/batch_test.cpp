@@ -289,8 +289,15 @@ TEST_F(Batch, ScanReplacedSinceIsToldAndWhatWasMatchedIsAssembled) {
       << without.err;
 #endif
   fs::remove_all(run_ + "/fragments");
+  const Finished refused = run({"assemble", run_});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_NE(refused.err.find("assembly.json: is kept, as 1 scan of the run cannot be used any more (b7.ply)"),
+            std::string::npos)
+      << refused.err;
+  EXPECT_EQ(json::parse(read_file(run_ + "/assembly.json"))["fragments"], after["fragments"]);
+  fs::remove(run_ + "/assembly.json");
   const Finished left_out = run({"assemble", run_});
-  EXPECT_EQ(left_out.exit_code, 0);
+  EXPECT_EQ(left_out.exit_code, 1);
   EXPECT_EQ(left_out.err.find("what the run keeps"), std::string::npos) << left_out.err;
   const json lost = json::parse(read_file(run_ + "/assembly.json"));
   EXPECT_NE(lost["fragments"]["b7.ply"]["reason"].get<std::string>().find("another content"),
