@@ -124,15 +124,15 @@ class AssembleCommand final : public Command {
       throw UsageError(hints_.given(), "serves a folder of scans, this is a run",
                        "give it to rejoin batch, or leave it out");
     }
+    if (out_) {
+      require_models_of_assembly(*out_);
+      require_writable_folder(*out_);  // before --json, which may lie in it
+    }
     if (json_) {
       require_apart_from_run("--json", *json_,
                              is_run(input_) || !out_ ? std::filesystem::path(input_) : kept_run(),
                              kAssemblyName);
       require_writable_file(*json_);
-    }
-    if (out_) {
-      require_models_of_assembly(*out_);
-      require_writable_folder(*out_);
     }
   }
 

@@ -45,8 +45,8 @@ class CompareCommand final : public Command {
 
   ExitCode run(Console& console, Context& context) override {
     require_two_files(path_a_, path_b_);
+    if (out_) require_writable_folder(*out_);  // first, for --json may lie in it
     if (json_) require_writable_file(*json_);
-    if (out_) require_writable_folder(*out_);
     const Rigid pose = read_pose(pose_);
     match::Fragment a = load_fragment(path_a_, console, context);
     match::Fragment b = load_fragment(path_b_, console, context);

@@ -126,8 +126,8 @@ class MatchCommand final : public Command {
     require_free_search(options);
     if (near_) options.near = read_pose(*near_);
     require_two_files(path_a_, path_b_);
+    if (out_) require_out();  // first, for --json may lie in it
     if (json_) require_writable_file(*json_);
-    if (out_) require_out();
     match::Fragment a = load_fragment(path_a_, console, context);
     match::Fragment b = load_fragment(path_b_, console, context);
     use_painted_facets(painted_, {&a, &b}, console);

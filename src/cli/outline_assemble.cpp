@@ -60,8 +60,8 @@ class OutlineAssembleCommand final : public Command {
     const auto begin = std::chrono::steady_clock::now();
     outline::MultiscaleOptions multiscale;
     apply_calibration(calibration_, method_, multiscale);
+    if (out_) require_writable_folder(*out_);  // first, for --json may lie in it
     if (json_) require_writable_file(*json_);
-    if (out_) require_writable_folder(*out_);
     const outline::PieceSet set = load_folder(folder_, console);
     if (set.pieces.size() < 2) throw InputError(folder_, "holds one piece only", "give a folder of pieces");
     check_calibration(calibration_, multiscale, set.pieces, console);

@@ -78,8 +78,8 @@ class OutlineMatchCommand final : public Command {
     if (mesh::has_scan_name(path_a_) || mesh::has_scan_name(path_b_)) return run_rims(console, context);
     outline::MultiscaleOptions multiscale = thorough();
     apply_calibration(calibration_, method_, multiscale);
+    if (out_) require_out(a.file, b.file);  // first, for --json may lie in it
     if (json_) require_json(a.file, b.file);
-    if (out_) require_out(a.file, b.file);
     const std::vector<outline::Piece> pieces{load_piece(a, console), load_piece(b, console)};
     if (const auto doubt = outline::doubt_resolutions({a.file, b.file})) console.warning(*doubt);
     if (const auto doubt = outline::doubt_axes(pieces)) console.warning(*doubt);

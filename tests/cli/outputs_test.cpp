@@ -52,6 +52,20 @@ TEST_F(Outputs, NoPageOrAssemblyReplacesAFileOfTheRunOrAScan) {
   expect_refused({"assemble", run_, "--json", b}, b, "is read too");
 }
 
+TEST_F(Outputs, JsonMayLieInTheFolderThatIsMadeForTheRest) {
+  const std::string scan = folder / "missing.ply";  // ends the command once its outputs have a place
+  for (const std::vector<std::string>& command : {std::vector<std::string>{"match", a, scan},
+                                                  {"compare", a, scan, "--pose", scan},
+                                                  {"assemble", run_}}) {
+    const std::string out = folder / command[0];
+    std::vector<std::string> arguments = command;
+    arguments.insert(arguments.end(), {"--out", out, "--json", out + "/result.json"});
+    const Finished finished = run(arguments);
+    EXPECT_EQ(finished.err.find("result.json: cannot be written"), std::string::npos) << finished.err;
+    EXPECT_TRUE(fs::is_directory(out)) << finished.err;
+  }
+}
+
 TEST_F(Outputs, AssembleReplacesModelsOfAnAssemblyAlone) {
   const std::string scan = folder / "assembled.ply";
   write_file(scan, "precious");
