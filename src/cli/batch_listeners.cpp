@@ -14,6 +14,18 @@ namespace {
 
 using nlohmann::ordered_json;
 
+const char* told(store::Run::Change change) {
+  switch (change) {
+    case store::Run::Change::Content:
+      return "has changed; its pairs are done again";
+    case store::Run::Change::Paint:
+      return "is painted otherwise than before; its pairs are done again";
+    case store::Run::Change::Gone:
+      return "is gone; its pairs are dropped";
+  }
+  return "";
+}
+
 /// Failures, which everybody must hear.
 class WarningListener : public batch::Listener {
  public:
@@ -24,10 +36,8 @@ class WarningListener : public batch::Listener {
       console_.warning(
           "the run was made with other parameters or by another version or build; its pairs are done again");
     }
-    for (const std::string& name : forgotten.fragments) {
-      console_.warning(fmt::format(
-          "{}: has changed, or is painted otherwise, or is gone; its pairs are done again or dropped", name));
-    }
+    for (const auto& [name, change] : forgotten.fragments)
+      console_.warning(fmt::format("{}: {}", name, told(change)));
     if (forgotten.laid_pairs > 0) {
       console_.warning(
           fmt::format("{} laid otherwise than before; done again",
@@ -107,11 +117,12 @@ class JsonListener final : public WarningListener {
 
   void on_start(const store::Run::Forgotten& forgotten, const batch::Progress& progress) override {
     WarningListener::on_start(forgotten, progress);
-    ordered_json json = {{"event", "start"},
-                         {"forgotten",
-                          {{"all_pairs", forgotten.parameters},
-                           {"fragments", forgotten.fragments},
-                           {"laid_pairs", forgotten.laid_pairs}}}};
+    ordered_json names = ordered_json::array();
+    for (const auto& [name, change] : forgotten.fragments) names.push_back(name);
+    ordered_json json = {
+        {"event", "start"},
+        {"forgotten",
+         {{"all_pairs", forgotten.parameters}, {"fragments", names}, {"laid_pairs", forgotten.laid_pairs}}}};
     add_progress(json, progress);
     print_line(console_, json);
   }

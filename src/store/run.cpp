@@ -153,14 +153,17 @@ std::size_t forget_laid_otherwise(SQLite::Database& database, const std::map<std
 }
 
 /// Removes what is no longer wanted, and takes what stays off `wanted`.
-/// \return names of what was removed
-std::vector<std::string> forget_changed(SQLite::Database& database, std::map<std::string, Fragment>& wanted) {
-  std::vector<std::string> names;
+/// \return what was removed, and why
+std::map<std::string, Run::Change> forget_changed(SQLite::Database& database,
+                                                  std::map<std::string, Fragment>& wanted) {
+  std::map<std::string, Run::Change> changes;
   for (const Fragment& known : detail::all_fragments(database)) {
     const auto same = wanted.find(known.name);
     if (same == wanted.end() || same->second.hash != known.hash || same->second.facets != known.facets) {
       remove_fragment(database, known.id);
-      names.push_back(known.name);
+      changes[known.name] = same == wanted.end()              ? Run::Change::Gone
+                            : same->second.hash != known.hash ? Run::Change::Content
+                                                              : Run::Change::Paint;
       continue;
     }
     if (same->second.path != known.path) {
@@ -168,7 +171,7 @@ std::vector<std::string> forget_changed(SQLite::Database& database, std::map<std
     }
     wanted.erase(same);
   }
-  return names;
+  return changes;
 }
 
 }  // namespace

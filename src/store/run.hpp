@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -63,10 +64,13 @@ class Run {
   std::vector<Candidate> candidates(const Pair& pair) const;
   std::vector<Candidate> candidates(std::int64_t a, std::int64_t b) const;
 
+  /// Why begin() forgets a fragment.
+  enum class Change { Content, Paint, Gone };
+
   /// What begin() had to forget.
   struct Forgotten {
-    bool parameters = false;             ///< all pairs, because they were made with other parameters
-    std::vector<std::string> fragments;  ///< names of those that changed or are gone, with their pairs
+    bool parameters = false;                  ///< all pairs, because they were made with other parameters
+    std::map<std::string, Change> fragments;  ///< names of those that went with their pairs
     std::size_t laid_pairs = 0;  ///< pairs of other fragments that the user laid otherwise than before
   };
 

@@ -180,7 +180,8 @@ TEST_F(Batch, ChangedScanAndChangedParametersAreDoneAgain) {
   mesh::save(folder_ / "scans/a8.ply", match::testing::planted_pair(9, kCells).a);
   const Finished changed = run({"batch", folder_ / "scans", "--out", run_});
   EXPECT_NE(changed.out.find("3 of 3 pairs done, 2 of them now"), std::string::npos) << changed.out;
-  EXPECT_NE(changed.err.find("a8.ply"), std::string::npos);
+  EXPECT_NE(changed.err.find("a8.ply: has changed; its pairs are done again"), std::string::npos)
+      << changed.err;
   const Finished seeded = run({"batch", folder_ / "scans", "--out", run_, "--seed", "2"});
   EXPECT_NE(seeded.out.find("3 of 3 pairs done, 3 of them now"), std::string::npos) << seeded.out;
   EXPECT_NE(seeded.err.find("other parameters"), std::string::npos);

@@ -17,6 +17,8 @@ namespace fs = std::filesystem;
 
 const Parameters kParameters{"0.1.0", R"({"resolution":128})", 0xffffffffffffffffULL};
 
+using Changes = std::map<std::string, store::Run::Change>;
+
 Fragment fragment(const std::string& name, const std::string& hash) {
   Fragment made;
   made.name = name;
@@ -150,10 +152,17 @@ TEST_F(RunTest, ChangedFragmentLosesItsPairsAlone) {
   std::vector<Fragment> changed = three_;
   changed[0].hash = "44";  // b.ply
   changed[2].path = "elsewhere/c.ply";
-  EXPECT_EQ(run.begin(kParameters, changed).fragments, std::vector<std::string>{"b.ply"});
+  EXPECT_EQ(run.begin(kParameters, changed).fragments, (Changes{{"b.ply", store::Run::Change::Content}}));
   ASSERT_EQ(run.pairs().size(), 1U);
   EXPECT_EQ(run.pairs()[0].name_b, "c.ply");
   EXPECT_EQ(run.fragments()[2].path, "elsewhere/c.ply");
+}
+
+TEST_F(RunTest, FragmentThatIsGoneIsForgotten) {
+  make_run();
+  store::Run run = store::Run::write(folder_);
+  EXPECT_EQ(run.begin(kParameters, {three_[0], three_[1]}).fragments,
+            (Changes{{three_[2].name, store::Run::Change::Gone}}));
 }
 
 TEST_F(RunTest, FragmentPaintedOtherwiseLosesItsPairsAlone) {
@@ -162,7 +171,7 @@ TEST_F(RunTest, FragmentPaintedOtherwiseLosesItsPairsAlone) {
   run.save(pair_of(run.fragments(), 1, 2), {candidate_});
   std::vector<Fragment> painted = three_;
   painted[1].facets = "paint";  // a.ply
-  EXPECT_EQ(run.begin(kParameters, painted).fragments, (std::vector<std::string>{"a.ply"}));
+  EXPECT_EQ(run.begin(kParameters, painted).fragments, (Changes{{"a.ply", store::Run::Change::Paint}}));
   ASSERT_EQ(run.pairs().size(), 1U);
   EXPECT_EQ(run.pairs()[0].name_a, "b.ply");
   EXPECT_EQ(run.fragments()[0].facets, "paint");
