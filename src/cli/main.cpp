@@ -11,6 +11,7 @@
 #include <iostream>
 #include <new>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/arguments.hpp"
@@ -157,13 +158,24 @@ int fail(const std::string& text, ExitCode code) {
   return code;
 }
 
+/// The words after the program's name; "help" before a command is its --help.
+std::vector<std::string> words_of(int argc, char** argv) {
+  std::vector<std::string> words(argv + 1, argv + std::max(1, argc));
+  if (words.empty() || words.front() != "help") return words;
+  words.erase(words.begin());
+  words.emplace_back("--help");
+  return words;
+}
+
 int run_program(int argc, char** argv) {
   CLI::App root("Finds how two scanned fragments join.", "rejoin");
   Common common;
   add_common(root, common);
   const std::vector<Entry> entries = add_commands(root);
   try {
-    root.parse(argc, argv);
+    std::vector<std::string> words = words_of(argc, argv);
+    std::ranges::reverse(words);  // as CLI11 takes them
+    root.parse(std::move(words));
     common.quiet = common.quiet || file_on_stdout(root);
     return run(entries, common);
   } catch (const CLI::ParseError& error) {

@@ -229,6 +229,19 @@ TEST(Help, OfOutlineCommandsTellsRangesOfNumbersAndDefaultsOfWords) {
   }
 }
 
+TEST(Help, IsACommandToo) {
+  const std::vector<std::vector<std::string>> commands{{}, {"match"}, {"outline"}, {"outline", "match"}};
+  for (std::vector<std::string> command : commands) {
+    std::vector<std::string> asked = command;
+    asked.insert(asked.begin(), "help");
+    command.emplace_back("--help");
+    const Finished finished = run(asked);
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    EXPECT_EQ(finished.out, run(command).out);
+  }
+  EXPECT_NE(run({"help", "glue"}).err.find("'glue' is no command"), std::string::npos);
+}
+
 TEST(Help, SaysWhereSeveralCanBeGiven) {
   EXPECT_NE(run({"merge", "--help"}).out.find("Usage: rejoin merge RUN... [OPTIONS]"), std::string::npos);
   EXPECT_NE(run({"assemble", "--help"}).out.find("Usage: rejoin assemble INPUT [OPTIONS]"),
