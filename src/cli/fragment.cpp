@@ -2,7 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <filesystem>
 #include <map>
+#include <system_error>
 
 #include "cli/interrupt.hpp"
 #include "core/error.hpp"
@@ -16,6 +18,7 @@ namespace {
 constexpr std::size_t kLeast = 4;  // faces or points; fewer enclose nothing
 
 mesh::Loaded load_scan(const std::string& path, Console& console, mesh::Weld weld = mesh::Weld::Places) {
+  require_no_folder(path, "name a scan in it; rejoin batch takes the folder");
   require_tellable_name(path);
   mesh::Loaded loaded = mesh::load(path, weld);
   for (const std::string& warning : loaded.warnings) console.warning(warning);
@@ -42,6 +45,11 @@ match::Fragment read_and_prepare(const std::string& path, Console& console, cons
 }
 
 }  // namespace
+
+void require_no_folder(const std::string& path, const std::string& mend) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) throw IoError(path, "is a folder", mend);
+}
 
 match::Fragment load_fragment(const std::string& path, Console& console, const Context& context) {
   match::Fragment fragment = read_and_prepare(path, console, context);

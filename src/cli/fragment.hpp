@@ -10,6 +10,9 @@
 
 namespace rejoin::cli {
 
+/// A folder where one scan is taken.  \throws IoError
+void require_no_folder(const std::string& path, const std::string& mend);
+
 /// Reads a scan, shows what had to be mended as warnings, and makes it ready.
 /// \throws IoError, InputError as mesh::load()
 match::Fragment load_fragment(const std::string& path, Console& console, const Context& context);

@@ -117,6 +117,14 @@ bool file_on_stdout(const CLI::App& app) {
                              [](const CLI::App* used) { return file_on_stdout(*used); });
 }
 
+/// What to do instead where a command got more arguments than it takes.
+std::string hint_for(const std::string& command) {
+  if (command == "rejoin batch" || command == "rejoin assemble") return " (name the folder of the scans)";
+  if (command == "rejoin match") return " (rejoin batch matches all scans of a folder)";
+  if (command == "rejoin outline match") return " (rejoin outline assemble takes all pieces of a folder)";
+  return "";
+}
+
 /// What is wrong with the words that nothing takes.  CLI11 would list them all, back to front.
 std::string unexpected(const std::vector<std::string>& words, const CLI::App& app,
                        const std::string& command) {
@@ -129,7 +137,9 @@ std::string unexpected(const std::vector<std::string>& words, const CLI::App& ap
                        is_file ? fmt::format(" (the file is ./{})", *option) : "");
   }
   const std::vector<const CLI::App*> known = visible_subcommands(app);
-  if (known.empty()) return fmt::format("'{}' is one argument more than {} takes", words.front(), command);
+  if (known.empty())
+    return fmt::format("'{}' is one argument more than {} takes{}", words.front(), command,
+                       hint_for(command));
   std::string names;
   for (const CLI::App* entry : known) names += (names.empty() ? "" : ", ") + entry->get_name();
   return fmt::format("'{}' is no command; there are {}", words.front(), names);

@@ -10,6 +10,7 @@
 
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
+#include "cli/fragment.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/json_values.hpp"
 #include "cli/outputs.hpp"
@@ -132,6 +133,8 @@ class SplitCommand final : public Command {
 
   ExitCode run(Console& console, Context& context) override {
     require_ending("--png", png_, ".png");
+    for (const std::string& scan : scans_)
+      require_no_folder(scan, fmt::format("name the scans in it: {}", (fs::path(scan) / "*.ply").string()));
     require_different_stems(scans_);
     if (options_.cut && options_.table == mesh::SplitOptions::TableUse::No)
       throw UsageError("--cut", "is a height above a table", "leave it or --table no away");

@@ -143,7 +143,11 @@ TEST(BadPlace, MissingFileIsNamed) {
 TEST(BadPlace, FolderAsScanIsNamed) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "scan.ply");
-  expect_failure(run({"facets", folder / "scan.ply"}), folder / "scan.ply");
+  const std::string scan = folder / "scan.ply";
+  expect_failure(run({"facets", scan}),
+                 scan + ": is a folder; name a scan in it; rejoin batch takes the folder");
+  expect_failure(run({"split", scan, "--out", folder / "out"}), "name the scans in it: " + scan + "/*.ply");
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
 TEST(BadPlace, NanNamesItsVertex) {

@@ -100,7 +100,12 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUse{"UnknownOption", {"match", "a.ply", "b.ply", "--colour"}, "--colour"},
         WrongUse{"NoFragments", {"match"}, "A is required"},
         WrongUse{"OneFragment", {"match", "a.ply"}, "B is required"},
-        WrongUse{"ThreeFragments", {"match", "a.ply", "b.ply", "c.ply"}, "c.ply"},
+        WrongUse{"ThreeFragments",
+                 {"match", "a.ply", "b.ply", "c.ply"},
+                 "'c.ply' is one argument more than rejoin match takes (rejoin batch matches all"},
+        WrongUse{"ScansInPlaceOfTheirFolder",
+                 {"batch", "a.ply", "b.ply", "--out", "run"},
+                 "'b.ply' is one argument more than rejoin batch takes (name the folder of the scans)"},
         WrongUse{"SameFragmentTwice", {"match", "a.ply", "a.ply"}, "same file"},
         WrongUse{"DirectionOfLengthZero", {"match", "a.ply", "b.ply", "--direction-a", "0,0,0"}, "length 0"},
         WrongUse{
