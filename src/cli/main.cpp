@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <regex>
 #include <string>
 #include <utility>
 #include <vector>
@@ -145,6 +146,14 @@ std::string unexpected(const std::vector<std::string>& words, const CLI::App& ap
   return fmt::format("'{}' is no command; there are {}", words.front(), names);
 }
 
+/// CLI11 tells an option that is repeated by "At Most 1 required but received 2".
+std::string in_words(const std::string& problem) {
+  static const std::regex kRepeated("(.+): At Most 1 required but received ([0-9]+)");
+  std::smatch part;
+  if (!std::regex_match(problem, part, kRepeated)) return problem;
+  return fmt::format("{} is given {}", part[1].str(), part[2] == "2" ? "twice" : part[2].str() + " times");
+}
+
 /// What is wrong with the command line, as one line with the way out.
 int explain(const CLI::App& root, const CLI::ParseError& error) {
   const CLI::App* app = &root;
@@ -157,7 +166,7 @@ int explain(const CLI::App& root, const CLI::ParseError& error) {
   const bool is_help = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);  // or --version
   if (is_help && (words.empty() || visible_subcommands(*app).empty()))
     return root.exit(error) == 0 ? kDone : kFailure;
-  std::string text = words.empty() ? error.what() : unexpected(words, *app, command);
+  std::string text = words.empty() ? in_words(error.what()) : unexpected(words, *app, command);
   std::replace(text.begin(), text.end(), '\n', ' ');  // CLI11 tells several things on several lines
   std::fputs(fmt::format("rejoin: {}; see {} --help\n", harmless(text), command).c_str(), stderr);
   return kWrongUse;
