@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -70,6 +71,27 @@ void require_file(const CLI::Option& option, const std::string& value, const CLI
   }
 }
 
+bool is_file_output(const CLI::Option& option) {
+  return option.get_group() == "Output" && option.get_type_name() == "FILE";
+}
+
+/// Devices and pipes take several outputs, a file the last one alone.
+void require_different_files(const CLI::App& command) {
+  std::map<fs::path, std::string> option_of;
+  for (const CLI::Option* option : command.get_options()) {
+    if (!is_file_output(*option)) continue;
+    for (const std::string& value : option->results()) {
+      std::error_code ignored;
+      const fs::path file = fs::weakly_canonical(value, ignored);
+      if (fs::is_other(file, ignored)) continue;
+      const auto [earlier, first] = option_of.emplace(file, option->get_name());
+      if (!first)
+        throw UsageError(value, fmt::format("is given to {} and to {}", earlier->second, option->get_name()),
+                         "name a file for each");
+    }
+  }
+}
+
 void require_folder(const CLI::Option& option, const std::string& value) {
   std::error_code ignored;
   if (fs::is_directory(value, ignored) || !has_name_of_a_file(value)) return;
@@ -123,6 +145,7 @@ void require_sound_paths(const CLI::App& command) {
       }
     }
   }
+  require_different_files(command);
   for (const CLI::App* used : command.get_subcommands()) require_sound_paths(*used);
 }
 

@@ -26,8 +26,8 @@ void require_ending(const std::string& option, const std::optional<std::string>&
                     const std::string& ending);
 
 /// Looks at the values of a parsed command's, and its commands', options in the groups "Input" and "Output".
-/// \throws UsageError an input or output is empty, an output is a file that is read too or a scan or piece in a folder that is read, or has the name of a file where a
-///         folder is taken
+/// \throws UsageError an input or output is empty, an output is a file that is read too or a scan or piece in a folder that is read,
+///         two outputs are one file, or an output has the name of a file where a folder is taken
 void require_sound_paths(const CLI::App& command);
 
 }  // namespace rejoin::cli

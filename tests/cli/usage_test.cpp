@@ -193,6 +193,9 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUse{
             "SplitCutWithoutTable", {"split", "a.ply", "--out", "o", "--cut", "1", "--table", "no"}, "--cut"},
         WrongUse{"SplitPictureNotPng", {"split", "a.ply", "--out", "o", "--png", "p.jpg"}, "--png"},
+        WrongUse{"SplitTwoOutputsIntoOneFile",
+                 {"split", "a.ply", "--out", "o", "--json", "p.png", "--png", "./p.png"},
+                 "./p.png: is given to --json and to --png"},
         WrongUse{"BenchResolution", {"bench", "--resolution", "1"}, "--resolution"}),
     [](const auto& info) { return std::string(info.param.name); });
 
