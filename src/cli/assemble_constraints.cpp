@@ -28,7 +28,8 @@ class Reader {
 
   assembly::Constraints read() const {
     const ordered_json json = parsed();
-    if (json.is_discarded()) throw InputError(path_, "is no JSON", kMend);
+    if (json.is_discarded())
+      throw InputError(path_, fmt::format("is no JSON ({})", json_fault(text_)), kMend);
     if (!json.is_object()) fail("is no JSON object");
     for (const auto& [key, value] : json.items()) {
       if (key != "must_join" && key != "must_not_join" && key != "poses")
@@ -73,8 +74,16 @@ class Reader {
       fail(fmt::format("{}: \"{}\" can have no place ({})", place, unusable->first, unusable->second));
     const auto found = std::find(names_.begin(), names_.end(), name.get<std::string>());
     if (found == names_.end())
-      fail(fmt::format("{}: there is no fragment \"{}\"", place, name.get<std::string>()));
+      fail(fmt::format("{}: there is no fragment \"{}\"{}", place, name.get<std::string>(),
+                       hint_for(name.get<std::string>())));
     return static_cast<std::size_t>(found - names_.begin());
+  }
+
+  /// The fragment that was meant where its ending was left out.
+  std::string hint_for(const std::string& name) const {
+    const auto meant = std::ranges::find_if(
+        names_, [&](const std::string& known) { return std::filesystem::path(known).stem() == name; });
+    return meant == names_.end() ? "" : fmt::format(" (\"{}\"?)", *meant);
   }
 
   Pairs pairs(const ordered_json& json, const std::string& key) const {

@@ -2,7 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -79,6 +81,22 @@ std::string read_json_text(const std::string& path, const std::string& mend) {
   if (json_depth(text) > kDeepestJson)
     throw InputError(path, fmt::format("its JSON is nested deeper than {}", kDeepestJson), mend);
   return text;
+}
+
+std::string json_fault(const std::string& text) {
+  try {
+    [[maybe_unused]] const ordered_json none = ordered_json::parse(text);
+  } catch (const ordered_json::parse_error& error) {
+    const std::string_view before =
+        std::string_view(text).substr(0, std::max<std::size_t>(1, error.byte) - 1);
+    const std::string_view line =
+        before.substr(before.rfind('\n') + 1);  // all of it where there is no line end
+    const auto is_letter = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };
+    return fmt::format("line {}, column {}", 1 + std::ranges::count(before, '\n'),
+                       1 + std::ranges::count_if(line, is_letter));
+  } catch (const ordered_json::exception&) {
+  }
+  return "a number is beyond what one holds";
 }
 
 std::string text_of(const ordered_json& json) {

@@ -26,6 +26,9 @@ inline constexpr const char* kNoRigid = "is no 4 x 4 matrix of a rotation and a 
 /// \throws IoError it cannot be read   \throws InputError it is nested deeper than kDeepestJson
 std::string read_json_text(const std::string& path, const std::string& mend);
 
+/// Where a text stops being JSON, as "line 3, column 14".  \pre it is none
+std::string json_fault(const std::string& text);
+
 /// The file's text.  A path may be no UTF-8, but JSON must be: such bytes are replaced.
 std::string text_of(const nlohmann::ordered_json& json);
 

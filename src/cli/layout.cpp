@@ -78,7 +78,8 @@ class Reader {
 
   void read_json() {
     const ordered_json json = ordered_json::parse(text_, nullptr, false);
-    if (json.is_discarded()) fail("is neither a MeshLab project nor JSON");
+    if (json.is_discarded())
+      fail(fmt::format("is neither a MeshLab project nor JSON ({})", json_fault(text_)));
     if (json.is_object() && json.contains("schema")) {
       read_assembly(json);
       return;

@@ -91,6 +91,10 @@ INSTANTIATE_TEST_SUITE_P(
     Files, HostileConstraints,
     ::testing::Values(
         Hostile{"Empty", "", "no JSON"}, Hostile{"CutShort", R"({"must_join": [["a.ply")", "no JSON"},
+        Hostile{"MissingComma", "{\n \"must_join\": [\n  [\"ä.ply\" \"c.ply\"]]}",
+                "no JSON (line 3, column 18)"},
+        Hostile{"NameWithoutItsEnding", R"({"must_join": [["c", "a.ply"]]})",
+                "no fragment \"c\" (\"c.ply\"?)"},
         Hostile{"List", "[]", "no JSON object"}, Hostile{"Number", "7", "no JSON object"},
         Hostile{"UnknownKey", R"({"mustjoin": []})", "knows no \"mustjoin\""},
         Hostile{"PairsAreText", R"({"must_join": "a.ply"})", "no list of pairs"},
@@ -120,7 +124,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "shift of at most 1e13"},
         Hostile{"HugeNumber",
                 R"({"poses": {"a.ply": [[1e999, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}})",
-                "wishes.json"}),
+                "wishes.json: is no JSON (a number is beyond"}),
     [](const auto& info) { return std::string(info.param.name); });
 
 TEST(ReadConstraints, AMissingFileIsAnIoError) {
