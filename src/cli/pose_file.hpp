@@ -9,8 +9,8 @@
 namespace rejoin::cli {
 
 /// The 4 x 4 matrix of a file, row by row: the "pose" of rejoin match's JSON, a bare JSON array of rows, or sixteen numbers as
-/// CloudCompare copies and saves them.
-/// \throws IoError it cannot be read   \throws InputError it holds no proper rigid motion
+/// CloudCompare copies and saves them, with commas between them and comments behind "#" or not.
+/// \throws IoError it cannot be read   \throws InputError it holds no proper rigid motion, or is an assembly
 Rigid read_pose(const std::string& path);
 
 /// Sixteen numbers as four rows, as they are in files of poses; a discarded value if the text is anything else.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cli/pose_file.hpp"
 #include "core/error.hpp"
 #include "run_program.hpp"
 
@@ -56,6 +57,28 @@ TEST(ReadConstraints, TakesAPoseFromTheFileOfAMatrixBesideThem) {
   expect_refused("is no 4 x 4 matrix");
   std::filesystem::remove(folder / "cloudcompare/c.txt");
   expect_refused("c.txt: cannot be");
+}
+
+TEST(ReadPose, MayHaveCommasAndComments) {
+  const TemporaryFolder folder;
+  write_file(folder / "m.csv", "# B to A, 7\n0,-1,0,5\n1, 0, 0, 6  # mm\n0 0 1 7\n0,0,0,1");
+  EXPECT_EQ(read_pose(folder / "m.csv")({1, 0, 0}), glm::dvec3(5, 7, 7));
+  write_file(folder / "m.csv", "0,5 0 0 1,5\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+  EXPECT_THROW(read_pose(folder / "m.csv"), InputError) << "decimal commas";
+}
+
+TEST(ReadPose, OfAnAssemblyTellsWhatIsNeeded) {
+  const TemporaryFolder folder;
+  write_file(folder / "assembly.json", R"({"schema": "rejoin.assembly/1", "fragments": {}})");
+  try {
+    read_pose(folder / "assembly.json");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("assembly.json: is an assembly"), std::string::npos)
+        << error.what();
+    EXPECT_NE(std::string(error.what()).find("inverse of A's pose times B's"), std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(ReadConstraints, AnEmptyObjectAsksForNothing) {
