@@ -398,6 +398,24 @@ TEST(Xyz, ReadsPointsWithNormalsAndColoursWhereverTheyStand) {
   }
 }
 
+TEST(Xyz, ReadsTablesWithCommasSemicolonsAndTabs) {
+  const TemporaryFolder folder;
+  const Mesh sphere = test::sphere_cloud(1, 0.3F, 5);
+  for (const std::string separator : {",", ", ", ";", " ; ", "\t"}) {
+    std::string text = fmt::format("x{0}y{0}z{0}nx{0}ny{0}nz\n", separator);
+    for (std::size_t i = 0; i < sphere.vertices.size(); ++i) {
+      const glm::vec3& p = sphere.vertices[i];
+      const glm::vec3& n = sphere.normals[i];
+      text += fmt::format("{1}{0}{2}{0}{3}{0}{4}{0}{5}{0}{6}\n", separator, p.x, p.y, p.z, n.x, n.y, n.z);
+    }
+    const Loaded loaded = load(folder.write("a.xyz", text));
+    EXPECT_TRUE(loaded.warnings.empty()) << separator;
+    ASSERT_EQ(loaded.mesh.vertices.size(), sphere.vertices.size()) << separator;
+    EXPECT_EQ(loaded.mesh.vertices[7], sphere.vertices[7]) << separator;
+    EXPECT_LT(glm::distance(loaded.mesh.normals[7], sphere.normals[7]), 1e-5F) << separator;
+  }
+}
+
 TEST(Xyz, ReadsTheCountOfAPtsFileAndItsColoursBehindTheIntensity) {
   const TemporaryFolder folder;
   const Mesh sphere = test::sphere_cloud(1, 0.1F, 6);

@@ -223,6 +223,8 @@ TEST_F(Malformed, TextOfPoints) {
          "its first line promises 4 points but the file ends after 3");
   expect("e.pts", "3\n", Kind::Io, "its first line promises 3 points but the file ends after 0");
   expect("f.xyz", "# nothing\n", Kind::Input, "has no vertices");
+  for (const char* decimal_commas : {"0,5 1,5 2,5\n0,5 1,5 2\n", "0,5;1,5;2,5\n0,5;1,5;2\n"})
+    expect("h.xyz", decimal_commas, Kind::Input, "export the scan with points as decimal marks");
   expect("g.xyz", "0 0 nan\n1 0 0\n0 1 0\n", Kind::Input, "vertex 0 is not a finite point");
 }
 

@@ -1,10 +1,11 @@
-// Text of points alone: .xyz, and .pts, whose first line counts them.
+// Text of points alone: .xyz, and .pts, whose first line counts them; with blanks, commas or semicolons between the numbers.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "core/error.hpp"
@@ -25,6 +26,29 @@ struct Rows {
     return {at[0], at[1], at[2]};
   }
 };
+
+/// What stands between a row's numbers besides blanks.  A comma between a number's digits, beside blanks, is a decimal mark.
+char separator_of(std::string_view row) {
+  if (row.find(';') != std::string_view::npos) return ';';
+  const bool has_blanks = row.find_first_of(" \t") != std::string_view::npos;
+  for (std::size_t k = row.find(','); k != std::string_view::npos; k = row.find(',', k + 1)) {
+    const bool ends_word = k + 1 == row.size() || row[k + 1] == ' ' || row[k + 1] == '\t';
+    if (has_blanks && !ends_word) return ' ';
+  }
+  return row.find(',') == std::string_view::npos ? ' ' : ',';
+}
+
+/// By the first rows of numbers, of which one may be the count of a .pts.
+char separator_of(const Source& source) {
+  constexpr int kLooked = 3;
+  TextLines lines(source);
+  char separator = ' ';
+  for (int k = 0; k < kLooked && separator == ' ' && lines.next_line(); ++k) {
+    const std::string_view row = lines.rest();
+    if (row.find_first_of("+-.0123456789") == 0) separator = separator_of(row);
+  }
+  return separator;
+}
 
 /// What a first line of one number promises.
 using Promise = std::optional<std::size_t>;
@@ -62,6 +86,14 @@ Rows read_rows(const Source& source) {
   return rows;
 }
 
+Rows read_separated_rows(const Source& source) {
+  const char separator = separator_of(source);
+  if (separator == ' ') return read_rows(source);
+  Source blank = source;
+  std::ranges::replace(blank.bytes, separator, ' ');
+  return read_rows(blank);
+}
+
 /// The first of the last three columns together, behind the coordinates, that are in every line what `fits` says; 0 if there are none.
 template <class Fits>
 std::size_t find_triple(const Rows& rows, const Fits& fits) {
@@ -88,7 +120,7 @@ bool is_colour(const glm::dvec3& v) {
 }  // namespace
 
 Soup read_xyz(const Source& source) {
-  const Rows rows = read_rows(source);
+  const Rows rows = read_separated_rows(source);
   Soup soup;
   const std::size_t normal = find_triple(rows, is_normal);
   const std::size_t colour = find_triple(rows, is_colour);
