@@ -110,6 +110,14 @@ TEST_F(Malformed, ListLongerThanTheFile) {
   expect("a.ply", header + points + raw(std::uint32_t{4000000000U}), Kind::Io, "ends in face 0 of the 1");
 }
 
+TEST_F(Malformed, BinaryPlySentAsText) {
+  save(folder_ / "sphere.ply", test::icosphere(1, 4));
+  std::string bytes = test::read_bytes(folder_ / "sphere.ply");
+  for (std::size_t k = bytes.find('\n'); k != std::string::npos; k = bytes.find('\n', k + 2))
+    bytes.insert(k, 1, '\r');
+  expect("a.ply", bytes, Kind::Input, "is damaged by a transfer as text");
+}
+
 TEST_F(Malformed, PlyHeaders) {
   expect("a.ply", "ply\nformat ascii 1.0\nelement vertex three\n", Kind::Input, "line 3");
   expect("b.ply", "ply\nformat utf8 1.0\nend_header\n", Kind::Input, "unknown format");

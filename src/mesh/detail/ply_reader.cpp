@@ -233,6 +233,20 @@ void read_strips(Values& values, const Place& place, Soup& soup) {
       });
 }
 
+/// A transfer as text puts a carriage return before every line feed, those among the bytes of numbers too.
+void require_not_sent_as_text(const Source& source, const PlyHeader& header) {
+  constexpr int kEnough = 8;  // of 256 line feeds one follows a carriage return by chance
+  int line_feeds = 0;
+  for (std::size_t k = source.bytes.find('\n', header.body); k != std::string::npos;
+       k = source.bytes.find('\n', k + 1), ++line_feeds) {
+    if (source.bytes[k - 1] != '\r') return;
+  }
+  if (line_feeds < kEnough) return;
+  throw InputError(source.name,
+                   "is damaged by a transfer as text, which put a byte before each of its line feeds",
+                   "transfer it again in binary mode, or zipped");
+}
+
 /// The header's promise against the bytes that are there, before memory is asked for.
 void check_promise(const Source& source, const PlyHeader& header) {
   const std::size_t body = source.bytes.size() - header.body;
@@ -278,6 +292,7 @@ Soup read_ply(const Source& source) {
   if (header.encoding == PlyHeader::Encoding::Ascii) {
     return read_body(source, header, AsciiValues(source.bytes, header.body));
   }
+  require_not_sent_as_text(source, header);
   return read_body(source, header,
                    BinaryValues(source.bytes, header.body, header.encoding == PlyHeader::Encoding::Big));
 }
