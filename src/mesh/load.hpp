@@ -34,16 +34,17 @@ bool has_scan_name(const std::filesystem::path& path);
 
 /// Reads a mesh or an oriented cloud by its extension (any case) and cleans it.
 ///
-/// Equal vertices are welded (exactly equal ones: nothing depends on the scale), degenerate and duplicate faces dropped, specks
+/// Points that are not finite are left out, with the faces that use them.  Equal vertices are welded (exactly equal ones: nothing depends on the scale), degenerate and duplicate faces dropped, specks
 /// far from the rest dropped (each less than 1 % of the area, farther away than a tenth of the size of the rest), stray points of
 /// a cloud and vertices of no face dropped, faces wound against their neighbours or a surface that is inside out turned, cloud
 /// normals made unit length, estimated where the file has none, and turned outwards.  Whatever changes the surface is said in a
 /// warning.  Non-manifold and open meshes load whole.
 ///
 /// \throws IoError     the file cannot be opened or ends before what its header promises
-/// \throws InputError  unknown extension, empty or not such a file, NaN or infinite coordinate (names its
-///                     vertex), index out of range (names its face), nothing or less than half left after clean-up,
-///                     next to no area, not between 1e-6 and 1e9 across, floats too far from the origin
+/// \throws InputError  unknown extension, empty or not such a file, more than a tenth of the faces, or half of the points of a
+///                     cloud, at NaN or infinite coordinates (names a vertex), index out of range (names its face), nothing or less
+///                     than half left after clean-up, next to no area, not between 1e-6 and 1e9 across, floats too far from the
+///                     origin
 Loaded load(const std::filesystem::path& path, Weld weld = Weld::Places, Content content = Content::OnePiece);
 
 }  // namespace rejoin::mesh

@@ -166,6 +166,37 @@ TEST_F(Malformed, CoordinatesThatAreNotFinite) {
          "vertex 1 is not a finite point (1, 0, -inf)");
 }
 
+TEST_F(Malformed, FewPointsThatAreNotFiniteAreLeftOutWithTheirFaces) {
+  const auto expect_warning = [](const Loaded& loaded, const std::string& words) {
+    ASSERT_EQ(loaded.warnings.size(), 1U);
+    EXPECT_NE(loaded.warnings[0].find(words), std::string::npos) << loaded.warnings[0];
+  };
+  Mesh sphere = test::icosphere(1, 3);
+  const std::size_t faces = sphere.faces.size();
+  const std::size_t vertices = sphere.vertices.size();
+  sphere.vertices.emplace_back(NAN, 0, 0);
+  save(folder_ / "unused.ply", sphere);
+  const Loaded unused = load(folder_ / "unused.ply");
+  EXPECT_EQ(unused.mesh.faces.size(), faces);
+  EXPECT_EQ(unused.mesh.vertices.size(), vertices);
+  expect_warning(unused, "left out 1 of 643 vertices that are not finite, which no face uses");
+  sphere.vertices[100].y = INFINITY;
+  save(folder_ / "used.ply", sphere);
+  const Loaded used = load(folder_ / "used.ply");
+  EXPECT_EQ(used.mesh.faces.size(), faces - 6);
+  expect_warning(used, "left out 2 of 643 vertices that are not finite, with 6 of 1280 faces");
+
+  Mesh cloud = test::sphere_cloud(1, 0.1F, 6);
+  const std::size_t points = cloud.vertices.size();
+  for (const std::size_t k : {3U, 50U, 51U}) cloud.vertices[k].x = NAN;
+  save(folder_ / "cloud.ply", cloud);
+  const Loaded part = load(folder_ / "cloud.ply");
+  EXPECT_EQ(part.mesh.vertices.size(), points - 3);
+  ASSERT_FALSE(part.warnings.empty());
+  EXPECT_NE(part.warnings[0].find("left out 3 of " + std::to_string(points) + " points"), std::string::npos)
+      << part.warnings[0];
+}
+
 TEST_F(Malformed, SizesWhoseAreasNoFloatHolds) {
   const auto triangle = [](const std::string& edge) {
     return "v 0 0 0\nv " + edge + " 0 0\nv 0 " + edge + " 0\nf 1 2 3\n";
@@ -233,7 +264,7 @@ TEST_F(Malformed, TextOfPoints) {
   expect("f.xyz", "# nothing\n", Kind::Input, "has no vertices");
   for (const char* decimal_commas : {"0,5 1,5 2,5\n0,5 1,5 2\n", "0,5;1,5;2,5\n0,5;1,5;2\n"})
     expect("h.xyz", decimal_commas, Kind::Input, "export the scan with points as decimal marks");
-  expect("g.xyz", "0 0 nan\n1 0 0\n0 1 0\n", Kind::Input, "vertex 0 is not a finite point");
+  expect("g.xyz", "0 0 nan\n1 0 nan\n0 1 0\n", Kind::Input, "vertex 0 is not a finite point");
 }
 
 TEST_F(Malformed, NoArea) {

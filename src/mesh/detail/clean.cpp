@@ -11,28 +11,11 @@
 #include "mesh/detail/soup.hpp"
 #include "mesh/detail/specks.hpp"
 #include "mesh/detail/triangulate.hpp"
+#include "mesh/detail/unusable_points.hpp"
 #include "mesh/detail/weld.hpp"
 
 namespace rejoin::mesh::detail {
 namespace {
-
-bool is_finite(const glm::dvec3& p) {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
-void check_points(const Soup& soup, const std::string& name) {
-  if (soup.points.empty()) throw InputError(name, "has no vertices", "export the scan again");
-  // Coordinates end up as floats, of which fourth powers are taken: what overflows one then is as bad as an infinity.
-  constexpr double kLargest = 1e12;
-  for (std::size_t i = 0; i < soup.points.size(); ++i) {
-    const glm::dvec3& p = soup.points[i];
-    if (is_finite(p) && glm::all(glm::lessThan(glm::abs(p), glm::dvec3(kLargest)))) continue;
-    throw InputError(name,
-                     fmt::format("vertex {} is not a finite point{} ({}, {}, {})", i,
-                                 is_finite(p) ? fmt::format(" within {:g}", kLargest) : "", p.x, p.y, p.z),
-                     "remove it in the scanning software");
-  }
-}
 
 void check_corners(const Soup& soup, const std::string& name) {
   std::size_t at = 0;
@@ -332,10 +315,11 @@ void clean_cloud(Loaded& loaded, const std::string& name, Content content) {
 
 }  // namespace
 
-Loaded clean(const Soup& soup, const std::string& name, Weld which, Content content) {
-  check_points(soup, name);
+Loaded clean(Soup soup, const std::string& name, Weld which, Content content) {
+  if (soup.points.empty()) throw InputError(name, "has no vertices", "export the scan again");
   check_corners(soup, name);
   Loaded loaded;
+  leave_out_unusable_points(soup, name, loaded.warnings);
   for (const std::string& note : soup.notes) loaded.warnings.push_back(fmt::format("{}: {}", name, note));
   const PointBox box = box_of_piece(soup.points);
   check_steps(soup, box, name, loaded.warnings);

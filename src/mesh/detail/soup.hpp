@@ -50,7 +50,7 @@ Soup read_drc(const Source& source);
 Soup read_xyz(const Source& source);
 
 /// Checks, triangulates, welds and cleans (see load()).
-Loaded clean(const Soup& soup, const std::string& name, Weld which = Weld::Places,
+Loaded clean(Soup soup, const std::string& name, Weld which = Weld::Places,
              Content content = Content::OnePiece);
 
 }  // namespace rejoin::mesh::detail
