@@ -469,6 +469,17 @@ TEST(Clean, KeepsPrecisionFarFromTheOrigin) {
   EXPECT_NEAR(diameter(mesh), 0.1 * std::sqrt(2.0), 1e-6);
 }
 
+TEST(Clean, DropsAVertexFarFromTheRestWithItsFaces) {
+  Mesh sphere = test::icosphere(1, 4);
+  sphere.vertices[2000].x = 99999;
+  const Loaded loaded = through_ply(sphere);
+  ASSERT_EQ(loaded.warnings.size(), 1U);
+  EXPECT_NE(loaded.warnings[0].find("dropped 6 of 5120 faces, at a vertex far from the rest"),
+            std::string::npos)
+      << loaded.warnings[0];
+  EXPECT_LT(diameter(loaded.mesh), 2.1);
+}
+
 TEST(Clean, KeepsFloatsNearTheOriginAsTheyAre) {
   Mesh sphere = test::icosphere(1, 2);
   for (glm::vec3& vertex : sphere.vertices) vertex += glm::vec3(1.1F, 0.3F, 0.7F);

@@ -8,6 +8,7 @@
 #include "core/words.hpp"
 #include "mesh/detail/cloud_normals.hpp"
 #include "mesh/detail/orient.hpp"
+#include "mesh/detail/point_box.hpp"
 #include "mesh/detail/soup.hpp"
 #include "mesh/detail/specks.hpp"
 #include "mesh/detail/triangulate.hpp"
@@ -51,46 +52,6 @@ void require_area(const Mesh& mesh, const std::string& name) {
   throw InputError(
       name, fmt::format("is {:.3g} across, but its faces have an area of only {:.3g} in all", size, area),
       "remove parts far from the rest, or export the scan again");
-}
-
-struct PointBox {
-  glm::dvec3 low;
-  glm::dvec3 high;
-
-  double size() const { return glm::length(high - low); }
-};
-
-PointBox box_of_all(const std::vector<glm::dvec3>& points) {
-  PointBox box{points.front(), points.front()};
-  for (const glm::dvec3& point : points) box = {glm::min(box.low, point), glm::max(box.high, point)};
-  return box;
-}
-
-/// On each axis between the shares 0.02 and 0.98 of up to some 10,000 of the points.
-PointBox box_of_most(const std::vector<glm::dvec3>& points) {
-  constexpr std::size_t kSampled = 10000;
-  constexpr double kOutside = 0.02;
-  const std::size_t step = 1 + points.size() / kSampled;
-  PointBox box{};
-  std::vector<double> values;
-  for (int axis = 0; axis < 3; ++axis) {
-    values.clear();
-    for (std::size_t i = 0; i < points.size(); i += step) values.push_back(points[i][axis]);
-    const auto cut = static_cast<std::ptrdiff_t>(kOutside * static_cast<double>(values.size()));
-    std::nth_element(values.begin(), values.begin() + cut, values.end());
-    box.low[axis] = values[static_cast<std::size_t>(cut)];
-    std::nth_element(values.begin(), values.end() - 1 - cut, values.end());
-    box.high[axis] = *(values.end() - 1 - cut);
-  }
-  return box;
-}
-
-/// Box of the points but for a few far from the rest, which some writers put at zero for those that they could not measure.
-PointBox box_of_piece(const std::vector<glm::dvec3>& points) {
-  constexpr double kFar = 4.0;
-  const PointBox all = box_of_all(points);
-  const PointBox most = box_of_most(points);
-  return all.size() > kFar * most.size() ? most : all;
 }
 
 /// Floats have wide steps far from the origin: tells where they come near the distance of the points, refuses where they exceed it.
@@ -199,6 +160,13 @@ void clean_faces(Loaded& loaded, const std::string& name, Content content) {
                     name, specks.faces, before, counted(specks.parts, "small part")));
   }
   drop_unused_vertices(mesh);
+  if (const Spikes spikes = drop_spikes(mesh); spikes.vertices > 0) {
+    loaded.warnings.push_back(fmt::format(
+        "{}: dropped {} of {} faces, at {} far from the rest (mend the coordinates, or remove it in "
+        "the scanning software)",
+        name, spikes.faces, before,
+        spikes.vertices == 1 ? "a vertex" : std::to_string(spikes.vertices) + " vertices"));
+  }
   if (const std::size_t backs = drop_backs(mesh); backs > 0) {
     loaded.warnings.push_back(
         fmt::format("{}: dropped {} of {} faces that are the backs of others", name, backs, before));

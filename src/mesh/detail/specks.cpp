@@ -8,6 +8,8 @@
 
 #include "mesh/detail/cloud_parts.hpp"
 #include "mesh/detail/parts.hpp"
+#include "mesh/detail/point_box.hpp"
+#include "mesh/detail/weld.hpp"
 
 namespace rejoin::mesh::detail {
 namespace {
@@ -73,6 +75,28 @@ Specks drop_specks(Mesh& mesh) {
   specks.faces = mesh.faces.size() - kept;
   mesh.faces.resize(kept);
   return specks;
+}
+
+Spikes drop_spikes(Mesh& mesh) {
+  constexpr std::size_t kOneIn = 1000;
+  constexpr std::size_t kSampled = 10000;
+  const std::vector<glm::vec3>& vertices = mesh.vertices;
+  if (vertices.size() < kOneIn) return {};
+  std::vector<glm::dvec3> sample;
+  for (std::size_t v = 0; v < vertices.size(); v += 1 + vertices.size() / kSampled)
+    sample.emplace_back(vertices[v]);
+  const PointBox most = box_of_most(sample);
+  const auto is_far = [&](std::uint32_t v) {
+    const glm::dvec3 p(vertices[v]);
+    return glm::distance(p, glm::clamp(p, most.low, most.high)) > kFar * most.size();
+  };
+  Spikes spikes;
+  for (std::uint32_t v = 0; v < vertices.size(); ++v) spikes.vertices += is_far(v) ? 1 : 0;
+  if (spikes.vertices == 0 || kOneIn * spikes.vertices > vertices.size()) return {};
+  spikes.faces = std::erase_if(
+      mesh.faces, [&](const glm::uvec3& face) { return is_far(face.x) || is_far(face.y) || is_far(face.z); });
+  drop_unused_vertices(mesh);
+  return spikes;
 }
 
 std::size_t drop_stray_points(Mesh& cloud, const NeighbourLists& near) {

@@ -19,6 +19,15 @@ struct Specks {
 /// \pre no face is degenerate
 Specks drop_specks(Mesh& mesh);
 
+struct Spikes {
+  std::size_t vertices = 0;
+  std::size_t faces = 0;
+};
+
+/// Drops vertices that lie farther from the box of most vertices than four times its diagonal, with their faces: values that
+/// were stored wrong.  All vertices stay where such ones are more than one in a thousand, which is a shape.
+Spikes drop_spikes(Mesh& mesh);
+
 /// Drops the points of a cloud that belong to no surface: strays (cloud_parts.hpp), and small groups far from the rest as
 /// drop_specks() does (less than 1 % of the points).
 /// \param near  of the cloud's points
