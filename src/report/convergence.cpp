@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <string_view>
 
 #include "core/utf8.hpp"
 #include "report/canvas.hpp"
@@ -51,6 +52,31 @@ Axis make_axis(double low, double high, double from, double to, bool logarithmic
   }
   if (!(high > low)) high = low + 1;
   return {low, high, from, to, logarithmic};
+}
+
+/// Cut in the middle where it has more letters than a line of the title's font; wide ones count twice.
+std::string fitted_title(std::string_view title) {
+  constexpr std::size_t kMost = 82;
+  std::vector<std::string_view> letters;
+  std::size_t width = 0;
+  const auto width_of = [](std::string_view letter) { return letter.size() > 2 ? 2U : 1U; };
+  while (!title.empty()) {
+    letters.push_back(title.substr(0, std::max<std::size_t>(1, utf8_length(title))));
+    width += width_of(letters.back());
+    title.remove_prefix(letters.back().size());
+  }
+  const std::size_t middle = letters.size() / 2;
+  std::size_t first = middle;  // of those that are left out
+  std::size_t end = middle;
+  while (width > kMost - (first < end ? 3 : 0)) {
+    width -= width_of(first > 0 && middle - first <= end - middle ? letters[--first] : letters[end++]);
+  }
+  std::string fitted;
+  for (std::size_t k = 0; k < letters.size(); ++k) {
+    if (k == first && first < end) fitted += "...";
+    if (k < first || k >= end) fitted += letters[k];
+  }
+  return fitted;
 }
 
 std::string text(double x, double y, const char* anchor, const std::string& content, const char* more = "") {
@@ -224,7 +250,8 @@ std::string convergence_svg(const match::Result& result, const std::string& titl
       "height=\"{1:.0f}\" "
       "fill=\"#fafafa\"/>\n",
       kWidth, kHeight);
-  svg += text(kLeft, 28, "start", (chains ? "Course of the search: " : "Scores of the poses found: ") + title,
+  svg += text(kLeft, 28, "start",
+              fitted_title((chains ? "Course of the search: " : "Scores of the poses found: ") + title),
               " font-size=\"16\" font-weight=\"bold\"");
   svg += text(
       kLeft, 48, "start",

@@ -57,6 +57,16 @@ match::Result annealed(int chains) {
   return result;
 }
 
+TEST(Convergence, TitleOfLongNamesStaysInThePicture) {
+  const std::string name = std::string(100, 'n') + " and " + std::string(100, 'm') + ".ply";
+  const std::string svg = convergence_svg(annealed(1), name);
+  EXPECT_EQ(svg.find(name), std::string::npos);
+  EXPECT_NE(svg.find(">Course of the search: nnnnnnnnnnnnnnn"), std::string::npos) << svg;
+  EXPECT_NE(svg.find("nn...mm"), std::string::npos) << svg;
+  EXPECT_NE(svg.find("mmmmmmmmmmmmmmmmmmmm.ply<"), std::string::npos) << svg;
+  EXPECT_NE(convergence_svg(annealed(1), "a.ply and b.ply").find(": a.ply and b.ply<"), std::string::npos);
+}
+
 TEST(Convergence, DrawsEnergyAndTemperatureOfEachChain) {
   const std::string svg = convergence_svg(annealed(3), "a and b");
   EXPECT_EQ(problem_in(svg), "");
