@@ -5,6 +5,7 @@
 
 #include "cli/arguments.hpp"
 #include "cli/outline_command.hpp"
+#include "cli/outputs.hpp"
 #include "core/files.hpp"
 #include "core/words.hpp"
 #include "outline/shatter.hpp"
@@ -50,7 +51,7 @@ class OutlineShatterCommand final : public Command {
 
   ExitCode run(Console& console, Context& context) override {
     const outline::ShatterOptions options = complete_options();
-    require_empty_folder(folder_);
+    const OutputFolder output(folder_);
     context.report("breaking", 0.0);
     const outline::Shattered broken = outline::shatter(options, context);
     if (context.cancelled()) return interrupted(console);

@@ -106,6 +106,18 @@ void require_apart(const std::string& option, const fs::path& output, const fs::
   if (fs::is_regular_file(output, ignored) && is_same(output, input)) refuse(option, output);
 }
 
+OutputFolder::OutputFolder(const fs::path& path) {
+  std::error_code ignored;
+  const bool was_there = fs::exists(path, ignored);
+  require_empty_folder(path);
+  if (!was_there) made_ = path;
+}
+
+OutputFolder::~OutputFolder() {
+  std::error_code holds_something;
+  if (!made_.empty()) fs::remove(made_, holds_something);
+}
+
 void require_apart_from_run(const std::string& option, const fs::path& output, const fs::path& run,
                             const std::string& replaceable) {
   std::error_code ignored;

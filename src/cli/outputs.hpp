@@ -14,6 +14,19 @@ namespace rejoin::cli {
 void require_apart(const std::string& option, const std::filesystem::path& output,
                    const std::filesystem::path& input);
 
+/// A new or empty folder for outputs; one that was made for them goes again if nothing is written into it.
+class OutputFolder {
+ public:
+  /// \throws IoError as require_empty_folder()
+  explicit OutputFolder(const std::filesystem::path& path);
+  ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+ private:
+  std::filesystem::path made_;  ///< empty if it was there
+};
+
 /// For a file that goes beside a run, or into it.
 /// \param run          folder of a run, or of none (then nothing is refused)
 /// \param replaceable  name of a file in the run that the command writes anew; empty: none

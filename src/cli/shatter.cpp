@@ -8,6 +8,7 @@
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
 #include "cli/json_values.hpp"
+#include "cli/outputs.hpp"
 #include "core/files.hpp"
 #include "core/version.hpp"
 #include "core/words.hpp"
@@ -72,7 +73,7 @@ class ShatterCommand final : public Command {
   }
 
   ExitCode run(Console& console, Context& context) override {
-    require_empty_folder(out_);
+    const OutputFolder output(out_);
     options_.erosion = erosion_ / 100.0;
     options_.noise = noise_ / 100.0;
     options_.spacing = spacing_ / 100.0;

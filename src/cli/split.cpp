@@ -138,7 +138,7 @@ class SplitCommand final : public Command {
     require_different_stems(scans_);
     if (options_.cut && options_.table == mesh::SplitOptions::TableUse::No)
       throw UsageError("--cut", "is a height above a table", "leave it or --table no away");
-    require_empty_folder(out_);
+    const OutputFolder output(out_);
     for (const auto& file : {json_, png_}) {
       if (file) require_writable_file(*file);
     }

@@ -66,6 +66,21 @@ TEST_F(Outputs, JsonMayLieInTheFolderThatIsMadeForTheRest) {
   }
 }
 
+TEST_F(Outputs, FolderThatWasMadeForNothingGoesAgain) {
+  const std::string open = folder / "open.obj";
+  write_file(open, "v 0 0 0\nv 9 0 0\nv 0 9 0\nv 9 9 1\nv 5 20 1\nf 1 2 3\nf 2 4 3\nf 3 4 5\n");
+  const std::string out = folder / "out";
+  for (const char* command : {"shatter", "split"}) {
+    fs::remove_all(out);
+    const std::string scan = std::string(command) == "split" ? folder / "missing.ply" : open;
+    EXPECT_EQ(run({command, scan, "--out", out}).exit_code, 1) << command;
+    EXPECT_FALSE(fs::exists(out)) << command;
+    fs::create_directory(out);
+    EXPECT_EQ(run({command, scan, "--out", out}).exit_code, 1) << command;
+    EXPECT_TRUE(fs::exists(out)) << "it was there";
+  }
+}
+
 TEST_F(Outputs, AssembleReplacesModelsOfAnAssemblyAlone) {
   const std::string scan = folder / "assembled.ply";
   write_file(scan, "precious");
