@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <tuple>
 
 #include "core/parallel.hpp"
@@ -338,7 +339,11 @@ Assembly assemble(const std::vector<Piece>& pieces, const Matcher& matcher, cons
     });
     context.report("matching pairs", static_cast<double>(begin + count) / static_cast<double>(names.size()));
   }
-  Assembly assembly = assemble(pieces, pairs, options, context);
+  // A wish to stop that ended the search must not throw away what it found; to join that takes moments.
+  const Context joining([&](std::string_view stage, double fraction) { context.report(stage, fraction); });
+  const bool search_ended = context.cancelled();
+  Assembly assembly = assemble(pieces, pairs, options, search_ended ? joining : context);
+  assembly.cancelled = context.cancelled();
   std::set<std::size_t> open;
   for (std::size_t i = 0; i < names.size(); ++i)
     if (matched[i] == 0) open.insert({names[i].first, names[i].second});

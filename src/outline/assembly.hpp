@@ -54,7 +54,8 @@ struct Assembly {
 /// a loop open is refused; pieces that stand in the way of a better join are taken off again.  At the end the error is
 /// spread over all joins by least squares.
 /// \param matcher  prepared with these pieces
-/// \return for a cancelled context: what the pairs matched so far give; pieces that might fit where nobody looked are
+/// \return for a context that is cancelled while pairs are matched: what those matched so far give, all joined, which
+///         nothing but the end of the process stops; pieces that might fit where nobody looked are
 ///         `untried`, not `unplaced`
 /// \source zhang 2016, section 4.4
 Assembly assemble(const std::vector<Piece>& pieces, const Matcher& matcher, const AssemblyOptions& options,

@@ -241,19 +241,37 @@ TEST(Assembly, CancelledWhileItGrowsKeepsWhatItJoined) {
   EXPECT_EQ(assembly.unplaced.size(), 4U) << "two of six are joined, then it ends";
 }
 
-/// Finds nothing and cancels its context at the pair (1, 2).
+/// Finds the true joins of a row of pieces, or nothing, and cancels its context at the pair (1, 2).
 class StoppedMatcher final : public Matcher {
  public:
-  explicit StoppedMatcher(Context& context) : context_(context) {}
+  explicit StoppedMatcher(Context& context, const planted::Board* known = nullptr)
+      : context_(context), known_(known) {}
   void prepare(const std::vector<Piece>& /*pieces*/) override {}
   PairResult match(std::size_t a, std::size_t b, const Context& /*context*/) const override {
     if (a == 1 && b == 2) context_.cancel();
-    return {};
+    if (context_.cancelled() || known_ == nullptr || b != a + 1) return {};
+    JoinCandidate join;
+    join.score = 0.9;
+    join.pose = inverse(known_->poses[a]) * known_->poses[b];
+    return {{join}};
   }
 
  private:
   Context& context_;
+  const planted::Board* known_;
 };
+
+TEST(Assembly, OfASearchThatWasStoppedHasTheJoinsItFound) {
+  const ThreadLimit limit(1);
+  const planted::Board board = planted::broken_board(3, 1, 0.05, 62);
+  Context context;
+  const StoppedMatcher matcher(context, &board);
+  const Assembly assembly = assemble(board.pieces, matcher, {}, context);
+  EXPECT_TRUE(assembly.cancelled);
+  ASSERT_EQ(assembly.joins.size(), 1U);
+  EXPECT_LT(misplaced(board, assembly, 0, 1), 0.3);
+  EXPECT_EQ(assembly.untried, std::vector<std::size_t>{2});
+}
 
 // Of three pieces the pairs (0, 1) and (0, 2) are looked at, and (1, 2) is not.
 TEST(Assembly, PiecesThatNobodyComparedAreNotSaidToFitNowhere) {
