@@ -74,13 +74,17 @@ class OutlineAssembleCommand final : public Command {
     console.detail(fmt::format("assembled after {:.2f} s", seconds_since(begin)));
     console.end_progress();
     if (assembly.cancelled) console.warning("interrupted; what follows is less than possible");
+    if (json_ && assembly.cancelled && std::filesystem::is_regular_file(*json_)) {
+      console.warning(*json_ + " is kept as an earlier assembly wrote it");
+      json_.reset();
+    }
     if (json_) {
       const OutlineSearch search{name_of(method_), seconds_since(begin), assembly.cancelled};
       write_file(*json_, assembly_json(set, assembly, search));
     }
     console.result(summary(set.pieces, assembly));
     if (json_) console.result(fmt::format("wrote {}\n", *json_));
-    if (out_) write_pictures(set.pieces, assembly, console);
+    if (out_ && !assembly.cancelled) write_pictures(set.pieces, assembly, console);
     return assembly.cancelled ? kInterrupted : finished_with(set, console);
   }
 

@@ -112,21 +112,32 @@ TEST(OutlineAssemble, ACopyOfAPieceIsToldAndLeftOut) {
   EXPECT_EQ(with["joins"], without["joins"]);
 }
 
-// Hundreds of borders to compare take long enough for the signal to arrive in the search.
+/// An assembly that is interrupted in its search: hundreds of borders to compare take long enough for the signal to arrive there.
+struct InterruptedAssembly {
+  TemporaryFolder folder;
+  std::string json_file = folder / "assembly.json";
+  std::string pictures = folder / "pictures";
+
+  Finished run_it() const {
+    const std::string pieces = folder / "pieces";
+    const Finished made =
+        run({"outline", "shatter", pieces, "--shapes", "20", "--pieces", "200", "--resolution", "25"});
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    Running running(
+        {"outline", "assemble", pieces, "--json", json_file, "--out", pictures, "--verbose"});
+    EXPECT_TRUE(running.wait_for_stderr("prepared after"));
+    running.interrupt();
+    Finished finished = running.finish();
+    EXPECT_EQ(finished.exit_code, 130) << finished.err;
+    return finished;
+  }
+};
+
 TEST(OutlineAssemble, AfterCtrlCTellsWhichPiecesWereNotTried) {
-  const TemporaryFolder folder;
-  const std::string pieces = folder / "pieces";
-  const Finished made =
-      run({"outline", "shatter", pieces, "--shapes", "20", "--pieces", "200", "--resolution", "25"});
-  ASSERT_EQ(made.exit_code, 0) << made.err;
-  const std::string file = folder / "assembly.json";
-  Running running({"outline", "assemble", pieces, "--json", file, "--verbose"});
-  ASSERT_TRUE(running.wait_for_stderr("prepared after"));
-  running.interrupt();
-  const Finished finished = running.finish();
-  EXPECT_EQ(finished.exit_code, 130) << finished.err;
+  const InterruptedAssembly interrupted;
+  const Finished finished = interrupted.run_it();
   EXPECT_NE(finished.err.find("interrupted"), std::string::npos) << finished.err;
-  const json assembly = json::parse(read_file(file));
+  const json assembly = json::parse(read_file(interrupted.json_file));
   EXPECT_TRUE(assembly["search"]["interrupted"].get<bool>());
   ASSERT_FALSE(assembly["untried"].empty());
   for (const std::string name : assembly["untried"]) {
@@ -135,6 +146,17 @@ TEST(OutlineAssemble, AfterCtrlCTellsWhichPiecesWereNotTried) {
         << name;
     EXPECT_NE(finished.out.find("not tried with all others: " + name), std::string::npos) << finished.out;
   }
+}
+
+TEST(OutlineAssemble, AfterCtrlCAnEarlierAssemblyStays) {
+  const InterruptedAssembly interrupted;
+  write_file(interrupted.json_file, "old");
+  std::filesystem::create_directory(interrupted.pictures);
+  write_file(interrupted.pictures + "/object_1.png", "old");
+  const Finished finished = interrupted.run_it();
+  EXPECT_EQ(read_file(interrupted.json_file), "old");
+  EXPECT_EQ(read_file(interrupted.pictures + "/object_1.png"), "old");
+  EXPECT_NE(finished.err.find(interrupted.json_file + " is kept"), std::string::npos) << finished.err;
 }
 
 TEST(OutlineAssemble, AFolderOfNothingUsableIsRefusedWithTheReason) {
