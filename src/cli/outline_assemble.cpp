@@ -63,7 +63,9 @@ class OutlineAssembleCommand final : public Command {
     if (out_) require_writable_folder(*out_);  // first, for --json may lie in it
     if (json_) require_writable_file(*json_);
     const outline::PieceSet set = load_folder(folder_, console);
-    if (set.pieces.size() < 2) throw InputError(folder_, "holds one piece only", "give a folder of pieces");
+    const std::size_t count = set.pieces.size();
+    if (count < 2) throw InputError(folder_, "holds one piece only", "give a folder of pieces");
+    search_pairs_in_full(count * (count - 1) / 2, multiscale);
     check_calibration(calibration_, multiscale, set.pieces, console);
     check_holes(method_, set.pieces, console);
     console.detail(fmt::format("read {} pieces in {:.2f} s", set.pieces.size(), seconds_since(begin)));

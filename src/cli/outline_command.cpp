@@ -31,6 +31,9 @@ outline::PieceSet read_folder_or_end(const std::string& folder) {
 /// A true join's score is hardly ever below.
 constexpr double kUnsure = 0.3;
 
+/// So many pairs take a few seconds if each is searched in full; 14 pieces have 91.
+constexpr std::size_t kFewPairs = 100;
+
 const Choices<OutlineMethod> kMethods{{"auto", OutlineMethod::Automatic},
                                       {"multiscale", OutlineMethod::Multiscale},
                                       {"lcs", OutlineMethod::Lcs},
@@ -66,6 +69,16 @@ void check_calibration(const std::optional<std::string>& calibration,
                        Console& console) {
   const auto doubt = calibration ? doubt_calibration(*calibration, options, pieces) : std::nullopt;
   if (doubt) console.warning(*doubt);
+}
+
+void search_pairs_in_full(std::size_t pairs, outline::MultiscaleOptions& options) {
+  if (pairs > kFewPairs) return;
+  // Short boundaries, too, and whatever might be one is fitted: the shape of the samples alone tells little of so short a stretch,
+  // so that the true one is often far down.  Where the outline is blurred it is that at the coarse scales, too.
+  options.min_length_share = 1.0 / 40.0;
+  options.per_pair = 256;
+  options.fitted = 256;
+  options.per_coarse_scale = 16;
 }
 
 const char* name_of(OutlineMethod method) {

@@ -38,6 +38,10 @@ void check_calibration(const std::optional<std::string>& calibration,
                        const outline::MultiscaleOptions& options, const std::vector<outline::Piece>& pieces,
                        Console& console);
 
+/// Sets the search of a pair as thorough as a single one can afford to be, if there are few pairs, so that a folder of few
+/// pieces has the joins that outline match finds.
+void search_pairs_in_full(std::size_t pairs, outline::MultiscaleOptions& options);
+
 /// "multiscale" ...; what Automatic stands for is named as such.
 const char* name_of(OutlineMethod method);
 

@@ -45,16 +45,6 @@ std::string summary(const outline::Piece& a, const outline::Piece& b, const outl
              place_of(best.boundary), best.boundary.length, areas.gap, areas.overlap);
 }
 
-/// One pair can afford to look for boundaries down to a fortieth of the border, and to fit whatever might be one: the shape of
-/// the samples alone tells little of so short a stretch, so that the true one is often far down.
-outline::MultiscaleOptions thorough() {
-  outline::MultiscaleOptions options;
-  options.min_length_share = 1.0 / 40.0;
-  options.per_pair = 256;
-  options.fitted = 256;
-  return options;
-}
-
 class OutlineMatchCommand final : public Command {
  public:
   void define(CLI::App& app) override {
@@ -76,7 +66,8 @@ class OutlineMatchCommand final : public Command {
     const PieceName b = piece_name(path_b_);
     if (a.number == b.number) require_two_files(a.file, b.file);
     if (mesh::has_scan_name(path_a_) || mesh::has_scan_name(path_b_)) return run_rims(console, context);
-    outline::MultiscaleOptions multiscale = thorough();
+    outline::MultiscaleOptions multiscale;
+    search_pairs_in_full(1, multiscale);
     apply_calibration(calibration_, method_, multiscale);
     if (out_) require_out(a.file, b.file);  // first, for --json may lie in it
     if (json_) require_json(a.file, b.file);

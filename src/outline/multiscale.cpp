@@ -21,8 +21,6 @@ constexpr std::size_t kReported = 10;
 /// The search begins at coarser scales too, up to that at which a boundary of this share of the mean border is not yet lost:
 /// where the fine scales hold nothing but noise, a long boundary shows at the coarse ones alone.
 constexpr double kLongBoundary = 1.0 / 3.0;
-/// Candidates that each of these scales adds.
-constexpr std::size_t kCoarseCandidates = 2;
 constexpr int kLeastSamples = 3;
 /// Area of a piece that may lie in a hole, as a share of the hole's: a scan takes a little off one and adds it to the other.
 constexpr double kHoleSlack = 1.25;
@@ -194,8 +192,8 @@ class Multiscale final : public Matcher {
   /// The best candidates of a scale at which short boundaries are lost, each refined as long as finer scales say more of it.
   void add_coarse(std::size_t a, std::size_t b, std::size_t scale,
                   std::vector<std::vector<PairedPlaces>>& starts) const {
-    for (detail::Candidate& candidate : detail::initial_candidates(sequences(a, b, scale), parameters(scale),
-                                                                   kLeastSamples, kCoarseCandidates)) {
+    for (detail::Candidate& candidate : detail::initial_candidates(
+             sequences(a, b, scale), parameters(scale), kLeastSamples, options_.per_coarse_scale)) {
       std::size_t k = scale;
       while (k > 0) {
         detail::Candidate next = detail::refine(sequences(a, b, k - 1), parameters(k - 1),

@@ -77,6 +77,22 @@ TEST(OutlineAssemble, PicturesOfAnEarlierRunDoNotStay) {
   EXPECT_TRUE(std::filesystem::exists(pictures + "/object_plan.png"));
 }
 
+TEST(OutlineAssemble, TwoPiecesThatMatchSaysJoinAreJoined) {
+  const TemporaryFolder folder;
+  const std::string tile = folder / "tile";
+  const Finished made = run({"outline", "shatter", tile, "--tiles", "1", "--pieces", "8", "--resolution",
+                             "100", "--wear", "1", "--seed", "4"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const std::string two = folder / "two";
+  std::filesystem::create_directory(two);
+  for (const char* name : {"piece_004.csv", "piece_006.csv"})  // their join is a twelfth of their borders
+    std::filesystem::copy_file(tile + "/" + name, two + "/" + name);
+  const Finished match = run({"outline", "match", two + "/piece_004.csv", two + "/piece_006.csv"});
+  EXPECT_TRUE(match.out.starts_with("join,")) << match.out;
+  const Finished done = run({"outline", "assemble", two});
+  EXPECT_NE(done.out.find("2 of 2 pieces placed; 1 join"), std::string::npos) << done.out;
+}
+
 TEST(OutlineAssemble, AFileThatCannotBeUsedIsToldAndTheRestGoesOn) {
   const BrokenShapes shapes;
   const json without = shapes.assembled();
@@ -123,8 +139,7 @@ struct InterruptedAssembly {
     const Finished made =
         run({"outline", "shatter", pieces, "--shapes", "20", "--pieces", "200", "--resolution", "25"});
     EXPECT_EQ(made.exit_code, 0) << made.err;
-    Running running(
-        {"outline", "assemble", pieces, "--json", json_file, "--out", pictures, "--verbose"});
+    Running running({"outline", "assemble", pieces, "--json", json_file, "--out", pictures, "--verbose"});
     EXPECT_TRUE(running.wait_for_stderr("prepared after"));
     running.interrupt();
     Finished finished = running.finish();
