@@ -14,6 +14,7 @@
 #include "core/files.hpp"
 #include "core/words.hpp"
 #include "outline/detail/readers.hpp"
+#include "outline/detail/repeats.hpp"
 #include "outline/polygon.hpp"
 #include "picture/image_file.hpp"
 
@@ -102,55 +103,6 @@ Outlines read_outlines(const std::string& path, Kind kind, std::vector<std::stri
     return signed_area(a.points) > signed_area(b.points);
   });
   return {std::move(outlines), y_up};
-}
-
-/// Whether two pictures' pieces lie in the same pixels and have the same colours, but for what saving them in another format changes.
-bool same_pixels(const Outline& a, const Outline& b) {
-  constexpr std::size_t kPlaces = 64;
-  constexpr double kApart = 0.75;   // pixels, on average; points of a contour are up to one apart
-  constexpr double kShade = 0.015;  // of the colour, on average
-  const std::size_t count = a.points.size();
-  if (a.colour.size() != count || b.colour.size() != b.points.size() || a.holes.size() != b.holes.size())
-    return false;
-  if (std::max(count, b.points.size()) - std::min(count, b.points.size()) > count / 50) return false;
-  double apart = 0.0;
-  double shade = 0.0;
-  for (std::size_t k = 0; k < kPlaces; ++k) {
-    const std::size_t i = k * count / kPlaces;
-    const std::size_t j = k * b.points.size() / kPlaces;
-    apart += glm::distance(a.points[i], b.points[j]) / kPlaces;
-    shade += glm::distance(a.colour[i], b.colour[j]) / kPlaces;
-  }
-  return apart < kApart && shade < kShade;
-}
-
-bool same(const Outline& a, const Outline& b) {
-  return (a.points == b.points && a.holes == b.holes && a.colour == b.colour) || same_pixels(a, b);
-}
-
-/// Leaves out what repeats another piece: no two scans agree in every place.  The shortest name stays, as copies are
-/// mostly called "copy of" or "(2)".
-void take_out_repeats(PieceSet& set) {
-  std::vector<Piece> kept;
-  kept.reserve(set.pieces.size());
-  for (Piece& piece : set.pieces) {
-    const auto first = std::find_if(kept.begin(), kept.end(),
-                                    [&](const Piece& other) { return same(other.outline, piece.outline); });
-    if (first == kept.end()) {
-      kept.push_back(std::move(piece));
-      continue;
-    }
-    const bool better = stands_for_both(piece.name, first->name);
-    const std::string stays = better ? piece.name : first->name;
-    const std::string goes = better ? first->name : piece.name;
-    const char* what = kind_of(piece.path) == Kind::Picture ? "picture" : "outline";
-    set.repeated.push_back(
-        {goes, fmt::format("{} and {} are the same {}; {} is left out", stays, goes, what, goes)});
-    if (!better) continue;
-    kept.erase(first);
-    kept.push_back(std::move(piece));
-  }
-  set.pieces = std::move(kept);
 }
 
 }  // namespace
@@ -326,7 +278,7 @@ PieceSet read_folder(const std::string& folder, const ExtractOptions& options) {
   const auto doubt = doubt_resolutions({files.begin(), files.end()});
   if (doubt) all.notes.push_back(*doubt);
   if (const auto mirrored = doubt_axes(all.pieces)) all.notes.push_back(*mirrored);
-  take_out_repeats(all);
+  detail::take_out_repeats(all);
   if (all.pieces.empty()) throw InputError(folder, "holds nothing that can be used", all.unusable[0].reason);
   return all;
 }

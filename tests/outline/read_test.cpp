@@ -217,6 +217,23 @@ TEST_F(Read, OnePictureInSeveralFormatsIsOnePiece) {
   EXPECT_EQ(set.repeated.size(), 2U);
 }
 
+TEST_F(Read, CardsOfOneSizeWithOtherTextAreNoCopies) {
+  const auto card = [&](const char* name, const char* text) {
+    cv::Mat image(200, 300, CV_8UC3, cv::Scalar(90, 60, 40));
+    cv::rectangle(image, {30, 30, 240, 140}, cv::Scalar(215, 230, 236), cv::FILLED);
+    cv::putText(image, text, {100, 110}, cv::FONT_HERSHEY_SIMPLEX, 0.5, cv::Scalar(30, 30, 30), 1,
+                cv::LINE_AA);
+    cv::imwrite((folder_ / name).string(), image);
+  };
+  card("a.png", "No. 17");
+  card("b.png", "No. 18");
+  card("b copy.jpg", "No. 18");
+  const PieceSet set = read_folder(folder_.string());
+  ASSERT_EQ(set.pieces.size(), 2U);
+  ASSERT_EQ(set.repeated.size(), 1U);
+  EXPECT_EQ(set.repeated[0].name, "b copy.jpg");
+}
+
 TEST_F(Read, PicturesThatTellDifferentResolutionsAreDoubted) {
   const auto tiff = [&](const char* name, double bump, int dots) {
     cv::imwrite((folder_ / name).string(), blot(bump),
