@@ -147,14 +147,23 @@ void assign_holes(std::vector<Polygon>& holes, std::vector<Outline>& pieces) {
   }
 }
 
+/// Corners of the box around a piece, left above and right below.
+std::pair<glm::dvec2, glm::dvec2> box_of(const Polygon& polygon) {
+  std::pair box(polygon[0], polygon[0]);
+  for (const glm::dvec2& p : polygon) box = {glm::min(box.first, p), glm::max(box.second, p)};
+  return box;
+}
+
+/// Where a user finds a piece that has no name.
+std::string place_of(const Polygon& polygon) {
+  const auto [low, high] = box_of(polygon);
+  return fmt::format("{:.0f} x {:.0f} pixels at x {:.0f}, y {:.0f}", high.x - low.x, high.y - low.y,
+                     std::ceil(std::max(low.x, 0.0)), std::ceil(std::max(low.y, 0.0)));
+}
+
 /// Whether a piece is a rectangle that runs along the picture's border: mostly the page or the scanner's bed, within a dark frame.
 bool is_bed(const Polygon& polygon, const cv::Mat& image) {
-  glm::dvec2 low = polygon[0];
-  glm::dvec2 high = polygon[0];
-  for (const glm::dvec2& p : polygon) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
+  const auto [low, high] = box_of(polygon);
   const glm::dvec2 share = (high - low) / glm::dvec2(image.cols, image.rows);
   return std::min(share.x, share.y) > kLeastBed &&
          signed_area(polygon) > kRectangle * (high.x - low.x) * (high.y - low.y);
@@ -190,8 +199,13 @@ void judge_cut_pieces(std::vector<Polygon>& outer, const cv::Mat& image, std::ve
     notes.emplace_back("the piece touches the picture's border and is taken as ending there");
     return;
   }
-  notes.push_back(fmt::format("{} of {} pieces touch the picture's border and are left out",
-                              outer.size() - whole, outer.size()));
+  std::string which;
+  for (const Polygon& polygon : outer)
+    if (cut(polygon)) which += (which.empty() ? "" : "; ") + place_of(polygon);
+  const std::size_t count = outer.size() - whole;
+  notes.push_back(fmt::format("{} of {} pieces {} the picture's border and {} left out ({})", count,
+                              outer.size(), count == 1 ? "touches" : "touch", count == 1 ? "is" : "are",
+                              which));
   outer.erase(std::remove_if(outer.begin(), outer.end(), cut), outer.end());
 }
 

@@ -135,7 +135,8 @@ Coverage coverage_from_background(const cv::Mat& image, const std::string& path)
     throw InputError(path, "the background is not plain",
                      "leave plain background all around the pieces, or cut them out (alpha)");
   }
-  const cv::Mat mask = foreground(background, image, classes.high_mean, classes.threshold);
+  cv::Mat mask = foreground(background, image, classes.high_mean, classes.threshold);
+  clear_frame(distance, mask);
   Coverage result{field_of(distance, mask), distance, {}};
   if (!background.plain()) {
     constexpr double kAsBright = 0.995;  // a change of colour alone

@@ -31,6 +31,12 @@ constexpr float kDarkestShadow = 0.35F;
 constexpr float kSameHue = 0.12F;
 /// and changes by less than this from pixel to pixel.
 constexpr float kSoft = 0.05F;
+/// A pixel of the frame is background if it is this much nearer to it than one of the next few inwards; print narrower than kStroke
+/// pixels is none.
+constexpr float kOutside = 0.4F;
+constexpr int kInwards = 4;
+constexpr int kStroke = 9;
+
 /// If taking shadows off leaves less than this share of the foreground, they were none.
 constexpr double kLeastLeft = 0.5;
 
@@ -99,6 +105,16 @@ double noise_of(const cv::Mat& distance, double most) {
   return median(values);
 }
 
+/// \param strip  distances of the outermost row and the next few inwards
+/// \return 255 where the row belongs to a piece
+cv::Mat pieces_in_row(const cv::Mat& strip) {
+  cv::Mat most;
+  cv::reduce(strip.rowRange(1, strip.rows), most, 0, cv::REDUCE_MAX);
+  cv::Mat piece = strip.row(0) >= kOutside * most;
+  cv::morphologyEx(piece, piece, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_RECT, {kStroke, 1}));
+  return piece;
+}
+
 }  // namespace
 
 cv::Mat distance_from(const Background& background, const cv::Mat& image) {
@@ -132,6 +148,21 @@ cv::Mat foreground(const Background& background, const cv::Mat& image, double co
   const cv::Mat all = ~bare;
   cv::Mat lit = all & ~shaded;
   return cv::countNonZero(lit) < kLeastLeft * cv::countNonZero(all) ? all : lit;
+}
+
+void clear_frame(const cv::Mat& distance, cv::Mat& mask) {
+  const int rows = distance.rows;
+  const int columns = distance.cols;
+  if (std::min(rows, columns) <= kInwards) return;
+  cv::Mat strip;
+  mask.row(0) &= pieces_in_row(distance.rowRange(0, kInwards + 1));
+  cv::flip(distance.rowRange(rows - kInwards - 1, rows), strip, 0);
+  mask.row(rows - 1) &= pieces_in_row(strip);
+  cv::transpose(distance.colRange(0, kInwards + 1), strip);
+  mask.col(0) &= pieces_in_row(strip).t();
+  cv::transpose(distance.colRange(columns - kInwards - 1, columns), strip);
+  cv::flip(strip, strip, 0);
+  mask.col(columns - 1) &= pieces_in_row(strip).t();
 }
 
 }  // namespace rejoin::outline::detail

@@ -18,4 +18,9 @@ cv::Mat distance_from(const Background& background, const cv::Mat& image);
 /// \return CV_8U, 255 where a piece is, up to two pixels beyond its border
 cv::Mat foreground(const Background& background, const cv::Mat& image, double contrast, double most);
 
+/// Takes background in the outermost pixels off a foreground, which smoothing has drawn to them where a piece is a pixel or two away:
+/// such a piece would seem to go on beyond the picture.
+/// \param distance  of the picture as it is
+void clear_frame(const cv::Mat& distance, cv::Mat& mask);
+
 }  // namespace rejoin::outline::detail
