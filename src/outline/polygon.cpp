@@ -191,6 +191,32 @@ std::optional<Crossing> find_crossing(const Polygon& polygon) {
   return std::nullopt;
 }
 
+std::optional<double> open_ends(const Polygon& line) {
+  constexpr double kLonger = 4.0;
+  constexpr double kLeastShare = 0.05;
+  constexpr std::size_t kLeastOfALine = 12;  // fewer are corners, any of which may be far from the next
+  if (line.size() < kLeastOfALine) return std::nullopt;
+  double length = 0.0;
+  double longest = 0.0;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const double edge = glm::distance(line[i], line[i + 1]);
+    length += edge;
+    longest = std::max(longest, edge);
+  }
+  const double apart = glm::distance(line.front(), line.back());
+  if (apart <= kLonger * longest || apart <= kLeastShare * length) return std::nullopt;
+  return apart;
+}
+
+std::optional<std::string> doubt_ends(const Polygon& line) {
+  const auto apart = open_ends(line);
+  if (!apart) return std::nullopt;
+  return fmt::format(
+      "the outline is open, and its ends, {:.4g} apart, are joined by a straight edge; if border is missing "
+      "there, draw it, and else close it",
+      *apart);
+}
+
 Polygon mend_polygon(Polygon polygon, const std::string& subject, std::vector<std::string>& notes) {
   require_usual_points(polygon, subject);
   polygon = without_repeats(polygon);

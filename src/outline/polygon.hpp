@@ -35,6 +35,13 @@ struct Crossing {
 };
 std::optional<Crossing> find_crossing(const std::vector<glm::dvec2>& polygon);
 
+/// How far apart the ends of a line are that may be an outline of which a part is missing: several times its longest edge, and a
+/// share of its length.  nullopt: closing it adds an edge like the others.
+std::optional<double> open_ends(const std::vector<glm::dvec2>& line);
+
+/// The same as a sentence for the user.
+std::optional<std::string> doubt_ends(const std::vector<glm::dvec2>& line);
+
 /// Makes an outline of a closed polygon: takes out repeated points, cuts off small loops where it crosses itself, and
 /// turns it so that its area is positive.
 /// \param subject  file and place for messages

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
@@ -139,6 +141,75 @@ TEST_F(Read, CsvWhoseCommasPartColumnsMayHaveBlanksAroundThem) {
   EXPECT_DOUBLE_EQ(only_area(read_pieces(write("c.csv", "0,0 1\n50,0 2\n50,2 3\n0,2 4\n"))), 100.0)
       << "a number each";
   EXPECT_DOUBLE_EQ(only_area(read_pieces(write("d.csv", "0,0;\n4,0;\n4,2;\n0,2;\n"))), 8.0);
+}
+
+TEST_F(Read, CsvFieldsMayStandInQuotesWithDecimalCommas) {
+  EXPECT_DOUBLE_EQ(
+      only_area(read_pieces(
+          write("a.csv", "x,y\n\"0,5\",\"0,5\"\n\"10,5\",\"0,5\"\n\"10,5\",\"8,5\"\n\"0,5\",\"8,5\"\n"))),
+      80.0);
+  EXPECT_DOUBLE_EQ(
+      only_area(read_pieces(
+          write("b.csv", "\"x\",\"y\"\n\"0.5\",\"0\"\n\"10.5\",\"0\"\n\"10.5\",\"8\"\n\"0.5\",\"8\"\n"))),
+      80.0);
+  EXPECT_DOUBLE_EQ(only_area(read_pieces(
+                       write("c.csv", "\"0,5\";\"0\"\n\"10,5\";\"0\"\n\"10,5\";\"8\"\n\"0,5\";\"8\"\n"))),
+                   80.0);
+  expect_refusal("d.csv", "0,0\n\"1,234.5\",1\n", "line 2 is no point");
+}
+
+TEST_F(Read, CsvWithTwiceAsManyFieldsAsNamesIsRefused) {
+  expect_refusal("a.csv", "x,y\n80,69,191,42\n80,61,190,43\n80,53,189,43\n80,45,188,43\n",
+                 "line 2 has 4 fields under 2 names; if its commas are decimal ones");
+  EXPECT_DOUBLE_EQ(only_area(read_pieces(write("b.csv", "x,y\n0,0,\n4,0,\n4,2,\n0,2,a corner\n"))), 8.0);
+}
+
+/// Points along a circle, or a part of it.
+std::string circle_csv(double centre, double radius, double share = 1.0) {
+  std::string text;
+  for (int i = 0; i < 40; ++i) {
+    const double angle = 2.0 * M_PI * share * i / 40.0;
+    text += std::to_string(centre + radius * std::cos(angle)) + "," +
+            std::to_string(radius * std::sin(angle)) + "\n";
+  }
+  return text;
+}
+
+TEST_F(Read, CsvMayHoldSeveralOutlinesPartedByBlankLines) {
+  const PieceSet set =
+      read_pieces(write("a.csv", "x,y\n" + circle_csv(0.0, 5.0) + "\n" + circle_csv(30.0, 9.0)));
+  ASSERT_EQ(set.pieces.size(), 2U);
+  EXPECT_EQ(set.pieces[1].name, "a.csv#2");
+  EXPECT_NEAR(signed_area(set.pieces[1].outline.points), M_PI * 25.0, 0.5);  // of its 40 corners
+  ASSERT_EQ(set.notes.size(), 1U);
+  EXPECT_NE(set.notes[0].find("blank lines part 2 outlines"), std::string::npos) << set.notes[0];
+}
+
+TEST_F(Read, OutlinesThatEndFarFromTheirBeginningAreDoubted) {
+  const auto doubted = [&](const char* name, const std::string& text) {
+    const PieceSet set = read_pieces(write(name, text));
+    return set.notes.size() == 1 &&
+           set.notes[0].find("the outline is open, and its ends, ") != std::string::npos;
+  };
+  const std::string part = circle_csv(0.0, 5.0, 0.6);
+  EXPECT_TRUE(doubted("a.csv", part));
+  EXPECT_FALSE(doubted("b.csv", circle_csv(0.0, 5.0)));
+  EXPECT_FALSE(doubted("c.csv", part + part.substr(0, part.find('\n'))));  // closed by its last point
+  std::string points = part;
+  std::ranges::replace(points, '\n', ' ');
+  EXPECT_TRUE(doubted("a.svg", "<svg><polyline points='" + points + "'/></svg>"));
+  EXPECT_FALSE(doubted("b.svg", "<svg><polygon points='" + points + "'/></svg>"));
+  EXPECT_TRUE(doubted("c.svg", "<svg><path d='M" + points + "'/></svg>"));
+  EXPECT_FALSE(doubted("d.svg", "<svg><path d='M" + points + "z'/></svg>"));
+}
+
+TEST_F(Read, DegreesAreDoubtedAwayFromTheEquator) {
+  const auto notes = [&](const char* name, const char* text) { return read_pieces(write(name, text)).notes; };
+  const auto far = notes("a.csv", "lat;lon\n60;10\n60;11\n61;11\n61;10\n");
+  ASSERT_EQ(far.size(), 1U);
+  EXPECT_NE(far[0].find("at a latitude of 60 one of longitude is 0.49 times"), std::string::npos) << far[0];
+  EXPECT_TRUE(notes("b.csv", "lat;lon\n0;10\n0;11\n1;11\n1;10\n").empty());
+  EXPECT_TRUE(notes("c.csv", "northing;easting\n60;10\n60;11\n61;11\n61;10\n").empty());
 }
 
 TEST_F(Read, CsvWithAByteOrderMarkLosesNoPoint) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,6 +13,7 @@
 
 #include "core/error.hpp"
 #include "outline/detail/readers.hpp"
+#include "outline/polygon.hpp"
 
 namespace rejoin::outline::detail {
 namespace {
@@ -99,6 +101,12 @@ bool points_down(std::string_view cell) {
                             [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
 }
 
+/// Whether a column is called as degrees are.
+bool is_degrees(std::string_view cell) {
+  const std::string name = name_of(cell);
+  return name.starts_with("lon") || name.starts_with("lat");
+}
+
 bool is_digit(std::string_view text, std::size_t i) {
   return i < text.size() && text[i] >= '0' && text[i] <= '9';
 }
@@ -151,6 +159,34 @@ std::optional<glm::dvec2> parse_point(std::string_view line, const Columns& colu
   return point_of(x, take_number(row[columns.y]));
 }
 
+/// A line whose fields stand in quotes, without these; the comma in such a field is a decimal one; fields with
+/// more than that keep their quotes.
+std::string without_quotes(std::string_view line) {
+  std::string text;
+  while (true) {
+    const std::size_t open = line.find('"');
+    const std::size_t shut = open == std::string_view::npos ? open : line.find('"', open + 1);
+    if (shut == std::string_view::npos) return text + std::string(line);
+    std::string field(line.substr(open + 1, shut - open - 1));
+    const std::size_t comma = field.find(',');
+    const bool decimal = comma != std::string::npos && comma > 0 && is_digit(field, comma - 1) &&
+                         is_digit(field, comma + 1) &&
+                         field.find_first_of(",.", comma + 1) == std::string::npos;
+    if (decimal) field[comma] = '.';
+    const bool thousands = comma != std::string::npos && !decimal;
+    text.append(line.substr(0, open)).append(thousands ? line.substr(open, shut + 1 - open) : field);
+    line.remove_prefix(shut + 1);
+  }
+}
+
+/// Whether each of several lines is an outline by itself, which its own end closes: not if blank lines part the points of one.
+bool are_outlines(const std::vector<std::vector<glm::dvec2>>& lines) {
+  constexpr std::size_t kLeastPoints = 12;
+  return lines.size() > 1 && std::ranges::all_of(lines, [](const auto& line) {
+           return line.size() >= kLeastPoints && !open_ends(line);
+         });
+}
+
 /// Reads the lines of one file.
 class Reader {
  public:
@@ -158,18 +194,21 @@ class Reader {
 
   void read(std::string_view text) {
     for (std::string_view rest = text; !rest.empty() && !blanks_part_;)
-      blanks_part_ = is_pair_with_decimal_commas(trimmed(take_line(rest), kSeparators));
+      blanks_part_ = is_pair_with_decimal_commas(trimmed(without_quotes(take_line(rest)), kSeparators));
     for (std::size_t number = 1; !text.empty(); ++number) {
-      const std::string_view line = take_line(text);
+      const std::string line = without_quotes(take_line(text));
       const std::string_view content = trimmed(line, kSeparators);
+      if (content.empty()) blank_ = true;
       if (content.empty() || content[0] == '#') continue;
       add(columns_.first_two() ? content : line, number);  // an empty first cell counts as a column
     }
-    if (points.empty()) throw InputError(path_, "holds no points", kMend);
+    if (lines.empty()) throw InputError(path_, "holds no points", kMend);
+    if (!are_outlines(lines)) join_lines();
     require_no_count();
+    tell_doubts();
   }
 
-  std::vector<glm::dvec2> points;
+  std::vector<std::vector<glm::dvec2>> lines;  ///< what blank lines part, if these are outlines
   bool y_up = true;
 
  private:
@@ -184,23 +223,66 @@ class Reader {
                        "write \"x,y\" with decimal points in each line");
     }
     if (!point) throw InputError(path_, fmt::format("line {} is no point", number), kMend);
-    points.push_back(*point);
+    require_fields(*plain, number);
+    if (blank_ || lines.empty()) lines.emplace_back();
+    blank_ = false;
+    lines.back().push_back(*point);
     more_columns_ = more_columns_ && cells(*plain).size() > 2;
   }
 
   void take_names(std::string_view line) {
     const auto named = named_columns(line);
     columns_ = named.value_or(Columns{});
-    if (named) y_up = !points_down(cells(line)[named->y]);
-    if (!named && cells(line).size() > 2)
+    const std::vector<std::string_view> names = cells(line);
+    fields_ = names.size();
+    if (named) y_up = !points_down(names[named->y]);
+    if (named) degrees_ = std::ranges::any_of(names, is_degrees);
+    if (!named && names.size() > 2)
       notes_.push_back(path_ + ": no columns are named x and y; the first two are taken");
+  }
+
+  /// Commas that are decimal ones and part the columns too give twice as many fields as there are names.
+  void require_fields(const std::string& line, std::size_t number) const {
+    const std::size_t found = line.find(';') == std::string::npos ? cells(line).size() : 0;
+    if (fields_ == 0 || found != 2 * fields_) return;
+    throw InputError(path_, fmt::format("line {} has {} fields under {} names", number, found, fields_),
+                     "if its commas are decimal ones, part the columns by semicolons");
+  }
+
+  /// Blank lines mean nothing in one outline.
+  void join_lines() {
+    for (std::size_t i = 1; i < lines.size(); ++i)
+      lines[0].insert(lines[0].end(), lines[i].begin(), lines[i].end());
+    lines.resize(1);
+  }
+
+  void tell_doubts() {
+    if (lines.size() > 1)
+      notes_.push_back(
+          fmt::format("{}: blank lines part {} outlines, each of which is a piece", path_, lines.size()));
+    if (const auto doubt = doubt_ends(lines[0])) notes_.push_back(path_ + ": " + *doubt);
+    if (degrees_) tell_degrees();
+  }
+
+  void tell_degrees() {
+    constexpr double kSame = 0.99;
+    double latitude = 0.0;
+    for (const glm::dvec2& p : lines[0]) latitude += p.y / static_cast<double>(lines[0].size());
+    const double share = std::cos(latitude * M_PI / 180.0);
+    if (std::abs(latitude) > 90.0 || share > kSame) return;
+    notes_.push_back(fmt::format(
+        "{}: degrees are no lengths (at a latitude of {:.0f} one of longitude is {:.2f} times as long as one "
+        "of "
+        "latitude), so that shapes are distorted; write x and y in metres, as of a national grid or UTM",
+        path_, latitude, share));
   }
 
   /// Of a table whose first column counts its lines the outline would be no one's.
   void require_no_count() const {
     if (!more_columns_ || columns_.x != 0) return;
-    for (std::size_t i = 1; i < points.size(); ++i)
-      if (points[i].x != points[i - 1].x + 1.0) return;
+    for (const auto& line : lines)
+      for (std::size_t i = 1; i < line.size(); ++i)
+        if (line[i].x != line[i - 1].x + 1.0) return;
     throw InputError(path_, "its first column counts the points",
                      "take it out, or name the columns in the first line, as \"id,x,y\"");
   }
@@ -208,6 +290,9 @@ class Reader {
   const std::string& path_;
   std::vector<std::string>& notes_;
   Columns columns_;
+  std::size_t fields_ = 0;  ///< that are named; 0: none
+  bool degrees_ = false;
+  bool blank_ = false;  ///< the last line was blank
   bool begun_ = false;  ///< a line that is neither empty nor a comment was read
   bool blanks_part_ = false;
   bool more_columns_ = true;
@@ -221,7 +306,12 @@ std::vector<Rings> read_csv(const std::string& path, const std::string& file,
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   Reader reader(path, notes);
   reader.read(text);
-  return {{{std::move(reader.points)}, "", reader.y_up}};
+  std::vector<Rings> outlines;
+  for (std::size_t i = 0; i < reader.lines.size(); ++i) {
+    const std::string place = reader.lines.size() > 1 ? fmt::format("outline {}", i + 1) : "";
+    outlines.push_back({{std::move(reader.lines[i])}, place, reader.y_up});
+  }
+  return outlines;
 }
 
 }  // namespace rejoin::outline::detail

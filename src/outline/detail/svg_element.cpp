@@ -194,7 +194,12 @@ std::vector<Polygon> polygons_of(const pugi::xml_node& node, const glm::dvec2& a
   const std::string name = local_name(node);
   const Lengths lengths(node, around, path);
   if (name == "path") return path_polygons(node.attribute("d").value(), path);
-  if (name == "polygon" || name == "polyline") return {listed_points(node, path)};
+  if (name == "polyline") return {listed_points(node, path)};
+  if (name == "polygon") {
+    Polygon points = listed_points(node, path);
+    if (!points.empty()) points.push_back(points.front());
+    return {std::move(points)};
+  }
   if (name == "rect") return rectangle(lengths, path);
   if (name == "ellipse") return ellipse(lengths.both("cx", "cy"), lengths.radii(), path);
   if (name == "circle") {

@@ -43,7 +43,8 @@ struct ViewBox {
 /// \param around  size of what the element is in, for lengths in %
 ViewBox view_box(const pugi::xml_node& svg, const glm::dvec2& around, const std::string& path);
 
-/// The closed polygons that an element draws, in its own coordinates: paths, polygons, rectangles, circles and ellipses.
+/// The polygons that an element draws, in its own coordinates: paths, polygons, rectangles, circles and ellipses.  Those of paths and
+/// polygons that are closed there end at their first points.
 /// \param around  size of what the element is in, for lengths in %
 /// \throws InputError what it says is broken
 std::vector<std::vector<glm::dvec2>> polygons_of(const pugi::xml_node& node, const glm::dvec2& around,

@@ -135,6 +135,7 @@ class Path {
   }
 
   bool close() {
+    if (!current_.empty()) current_.push_back(start_);
     finish();
     at_ = start_;
     return true;

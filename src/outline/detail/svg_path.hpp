@@ -9,7 +9,7 @@
 
 namespace rejoin::outline::detail {
 
-/// Subpaths with their curves cut into straight pieces; each counts as closed, whether it ends with Z or not.
+/// Subpaths with their curves cut into straight pieces; each counts as closed, but those that end with Z end at their first points.
 /// \param problem  gets what is wrong where the answer is nullopt
 std::optional<std::vector<std::vector<glm::dvec2>>> flatten_path(std::string_view data, std::string& problem);
 

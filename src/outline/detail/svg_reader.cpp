@@ -80,6 +80,7 @@ struct Shape {
   Polygon polygon;
   std::size_t element = 0;  ///< that draws it, perhaps with others
   bool hole = false;        ///< in what its element draws
+  std::optional<std::string> doubt;
 };
 
 /// Sorts shapes into pieces with holes: a shape inside an odd number of others is a hole of the smallest of them.  Shapes lie side
@@ -243,6 +244,12 @@ class Reader {
 
   /// \param polygons  of one element
   void add(std::vector<Polygon> polygons, const Scope& scope) {
+    std::vector<std::optional<std::string>> doubts;
+    for (Polygon& polygon : polygons) {
+      const auto doubt = doubt_ends(polygon);
+      if (polygon.size() > 1 && polygon.front() == polygon.back()) polygon.pop_back();
+      if (polygon.size() >= 3) doubts.push_back(doubt);
+    }
     std::erase_if(polygons, [](const Polygon& polygon) { return polygon.size() < 3; });
     if (polygons.empty()) return;
     ++elements_;
@@ -254,7 +261,7 @@ class Reader {
       hole[i] = around % 2 == 1 ? 1 : 0;
     }
     for (std::size_t i = 0; i < polygons.size(); ++i)
-      add({std::move(polygons[i]), elements_, hole[i] != 0}, scope);
+      add({std::move(polygons[i]), elements_, hole[i] != 0, doubts[i]}, scope);
   }
 
   void add(Shape shape, const Scope& scope) {
@@ -272,6 +279,8 @@ class Reader {
       ++repeated_;
       return;
     }
+    if (shape.doubt)
+      notes_.push_back(fmt::format("{}, shape {}: {}", path_, shapes_.size() + 1, *shape.doubt));
     shapes_.push_back(std::move(shape));
   }
 
