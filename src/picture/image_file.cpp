@@ -95,6 +95,18 @@ std::string_view png_chunk(std::string_view bytes, std::string_view kind) {
 }
 
 /// From the pHYs chunk: dots a metre.
+/// Whether its last chunk is there: libpng tells on stderr, past every stream, that it is not.
+bool png_is_whole(std::string_view bytes) {
+  std::size_t place = kPngStart.size();
+  while (const auto length = number_at(bytes, place, 4, true)) {
+    const std::size_t end = place + 12 + *length;
+    if (end > bytes.size()) return false;
+    if (bytes.substr(place + 4, 4) == "IEND") return true;
+    place = end;
+  }
+  return false;
+}
+
 double png_resolution(std::string_view bytes) {
   const std::string_view chunk = png_chunk(bytes, "pHYs");
   const auto across = number_at(chunk, 0, 4, true);
@@ -277,8 +289,9 @@ cv::Mat decode_image(const std::string& bytes, const std::string& name, std::siz
                                  header->width, header->height, max_pixels / 1000000),
                      "scale the picture down or cut it into parts");
   }
-  if (is_jpeg(bytes) && !jpeg_is_whole(bytes))
-    throw InputError(name, "is cut short: its end is missing", "save the picture again");
+  const bool whole =
+      is_jpeg(bytes) ? jpeg_is_whole(bytes) : !bytes.starts_with(kPngStart) || png_is_whole(bytes);
+  if (!whole) throw InputError(name, "is cut short: its end is missing", "save the picture again");
   require_usual_samples(*header, name);
   if (notes && header->pages > 1)
     notes->push_back(fmt::format("holds {} pages; the first is read", header->pages));

@@ -35,6 +35,17 @@ TEST(OutlineMatch, FindsAPlantedJoinAndDrawsIt) {
   EXPECT_EQ(cv::imread(pictures + "/joined.png", cv::IMREAD_UNCHANGED).channels(), 4);
 }
 
+TEST(OutlineMatch, APictureThatIsCutShortIsRefusedInOneLine) {
+  const TemporaryFolder folder;
+  const std::string good = good_picture(folder);
+  const std::string bytes = read_file(good);
+  const std::string cut = folder / "cut.png";
+  for (const std::size_t missing : {std::size_t{5}, bytes.size() / 2}) {
+    write_file(cut, bytes.substr(0, bytes.size() - missing));
+    expect_refusal({"outline", "match", good, cut}, "cut.png: is cut short");
+  }
+}
+
 // The shapes' edges are scanned to a fraction of a pixel and each method lays them on each other to about a pixel.
 TEST(OutlineMatch, EveryMethodStatesAreasOfAboutHalfAPixelAlongATrueJoin) {
   const BrokenShapes shapes;
