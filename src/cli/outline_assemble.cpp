@@ -85,6 +85,8 @@ class OutlineAssembleCommand final : public Command {
       write_file(*json_, assembly_json(set, assembly, search));
     }
     console.result(summary(set.pieces, assembly));
+    if (!assembly.unplaced.empty() && method_ != OutlineMethod::Lcs)
+      console.result("  what lies upside down fits nowhere either; --method lcs finds it\n");
     if (json_) console.result(fmt::format("wrote {}\n", *json_));
     if (out_ && !assembly.cancelled) write_pictures(set.pieces, assembly, console);
     return assembly.cancelled ? kInterrupted : finished_with(set, console);

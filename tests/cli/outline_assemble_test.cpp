@@ -93,6 +93,17 @@ TEST(OutlineAssemble, TwoPiecesThatMatchSaysJoinAreJoined) {
   EXPECT_NE(done.out.find("2 of 2 pieces placed; 1 join"), std::string::npos) << done.out;
 }
 
+TEST(OutlineAssemble, APieceThatFitsNowhereMayLieUpsideDownAsOneMethodAloneWouldFind) {
+  const BrokenShapes shapes;
+  write_file(shapes.pieces + "/square.csv", "x,y\n0,0\n90,0\n90,90\n0,90\n");
+  const std::string hint = "upside down fits nowhere either; --method lcs";
+  const Finished done = run({"outline", "assemble", shapes.pieces});
+  EXPECT_NE(done.out.find("fits nowhere: square.csv\n  what lies " + hint), std::string::npos) << done.out;
+  const Finished by_lcs = run({"outline", "assemble", shapes.pieces, "--method", "lcs"});
+  EXPECT_NE(by_lcs.out.find("fits nowhere: square.csv"), std::string::npos) << by_lcs.out;
+  EXPECT_EQ(by_lcs.out.find(hint), std::string::npos) << by_lcs.out;
+}
+
 TEST(OutlineAssemble, AFileThatCannotBeUsedIsToldAndTheRestGoesOn) {
   const BrokenShapes shapes;
   const json without = shapes.assembled();
