@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <string>
 
 #include "core/error.hpp"
 #include "core/median.hpp"
@@ -37,6 +38,11 @@ constexpr double kSameAngle = 5.0 * M_PI / 180.0;
 /// See score_of().
 constexpr double kEvenEvidence = 20.0;
 constexpr double kEvidenceScale = 3.0;
+
+/// The place on a closed border.
+double wrapped_place(double place, double perimeter) {
+  return place - std::floor(place / perimeter) * perimeter;
+}
 
 }  // namespace
 
@@ -148,8 +154,8 @@ std::optional<FittedJoin> JoinFitter::fit(std::size_t a, std::size_t b,
   const double end_a = detail::place_of(border_a.border, contact->contacts.back().i);
   const double begin_b = detail::place_of(border_b.border, contact->contacts.front().j);
   const double end_b = detail::place_of(border_b.border, contact->contacts.back().j);
-  join.boundary.begin_a = begin_a - std::floor(begin_a / s.perimeters[a]) * s.perimeters[a];
-  join.boundary.begin_b = begin_b - std::floor(begin_b / s.perimeters[b]) * s.perimeters[b];
+  join.boundary.begin_a = wrapped_place(begin_a, s.perimeters[a]);
+  join.boundary.begin_b = wrapped_place(begin_b, s.perimeters[b]);
   join.boundary.length = 0.5 * (end_a - begin_a + begin_b - end_b);
   const auto& [piece_a, hole_a] = s.borders[a];
   const auto& [piece_b, hole_b] = s.borders[b];
@@ -163,14 +169,39 @@ std::optional<FittedJoin> JoinFitter::fit(std::size_t a, std::size_t b,
       detail::agreement(border_a, border_b, contact->contacts) *
       std::exp(-residual * residual - fitted.overlap_share / kOverlapScale - along_boundary / kOverlapDepth);
   join.score = score_of(fitted.evidence);
+  fitted.pairs.reserve(contact->contacts.size());
+  for (const detail::Contact& c : contact->contacts)
+    fitted.pairs.push_back({detail::place_of(border_a.border, c.i), detail::place_of(border_b.border, c.j)});
   return fitted;
 }
 
-std::vector<JoinCandidate> distinct(std::vector<FittedJoin> joins, const Piece& b, double same_distance,
-                                    std::size_t most) {
+FittedJoin JoinFitter::exchanged(std::size_t a, std::size_t b, const FittedJoin& join) const {
+  FittedJoin result = join;
+  result.pairs.clear();
+  for (auto pair = join.pairs.rbegin(); pair != join.pairs.rend(); ++pair)
+    result.pairs.push_back({pair->on_b, pair->on_a});
+  result.join.pose = inverse(join.join.pose);
+  Boundary& boundary = result.join.boundary;
+  boundary.begin_a = wrapped_place(result.pairs.front().on_a, state_->perimeters[b]);
+  boundary.begin_b = wrapped_place(result.pairs.front().on_b, state_->perimeters[a]);
+  std::swap(boundary.hole_a, boundary.hole_b);
+  return result;
+}
+
+FittedJoin JoinFitter::fit_from_both_sides(std::size_t a, std::size_t b, const FittedJoin& join) const {
+  const auto back = fit(b, a, exchanged(a, b, join).pairs);
+  const double evidence = back ? back->evidence : 0.0;
+  FittedJoin result = evidence > join.evidence ? exchanged(b, a, *back) : join;
+  result.evidence = 0.5 * (join.evidence + evidence);
+  result.join.score = score_of(result.evidence);
+  return result;
+}
+
+std::vector<FittedJoin> distinct(std::vector<FittedJoin> joins, const Piece& b, double same_distance,
+                                 std::size_t most) {
   std::stable_sort(joins.begin(), joins.end(),
                    [](const FittedJoin& x, const FittedJoin& y) { return x.evidence > y.evidence; });
-  std::vector<JoinCandidate> kept;
+  std::vector<FittedJoin> kept;
   const auto off = [&](const Planar& x, const Planar& y) {
     double farthest = 0.0;
     const std::size_t stride = std::max<std::size_t>(1, b.outline.points.size() / 16);
@@ -178,13 +209,13 @@ std::vector<JoinCandidate> distinct(std::vector<FittedJoin> joins, const Piece& 
       farthest = std::max(farthest, glm::distance(x(b.outline.points[i]), y(b.outline.points[i])));
     return farthest;
   };
-  for (const FittedJoin& fitted : joins) {
+  for (FittedJoin& fitted : joins) {
     if (kept.size() == most) break;
-    const auto same = [&](const JoinCandidate& other) {
-      return angle_between(other.pose, fitted.join.pose) < kSameAngle &&
-             off(other.pose, fitted.join.pose) < same_distance;
+    const auto same = [&](const FittedJoin& other) {
+      return angle_between(other.join.pose, fitted.join.pose) < kSameAngle &&
+             off(other.join.pose, fitted.join.pose) < same_distance;
     };
-    if (std::none_of(kept.begin(), kept.end(), same)) kept.push_back(fitted.join);
+    if (std::none_of(kept.begin(), kept.end(), same)) kept.push_back(std::move(fitted));
   }
   return kept;
 }

@@ -38,9 +38,10 @@ struct FitOptions {
 /// A fitted join with what speaks for it.
 struct FittedJoin {
   JoinCandidate join;
-  double evidence = 0.0;       ///< how much more the two borders agree than chance, natural logarithm
-  double overlap_share = 0.0;  ///< area that lies deep in both / the smaller piece's area
-  double residual = 0.0;       ///< rms of the gap's variation along the boundary, file units
+  double evidence = 0.0;            ///< how much more the two borders agree than chance, natural logarithm
+  double overlap_share = 0.0;       ///< area that lies deep in both / the smaller piece's area
+  double residual = 0.0;            ///< rms of the gap's variation along the boundary, file units
+  std::vector<PairedPlaces> pairs;  ///< along the boundary, as JoinFitter::fit() takes them
 };
 
 /// Fits joins between the pieces of one set.  Thread-safe after construction.
@@ -67,6 +68,15 @@ class JoinFitter {
   /// \return nullopt: the borders do not meet there
   std::optional<FittedJoin> fit(std::size_t a, std::size_t b, const std::vector<PairedPlaces>& pairs) const;
 
+  /// Fits a join from B's side too: what a border's points meet depends on whose points they are, and where a boundary ends.
+  /// \param join  a result of fit(a, b)
+  /// \return the one with more evidence, as a result of fit(a, b), with the mean of both evidences
+  FittedJoin fit_from_both_sides(std::size_t a, std::size_t b, const FittedJoin& join) const;
+
+  /// The same join with A and B in each other's place.
+  /// \param join  a result of fit(a, b)
+  FittedJoin exchanged(std::size_t a, std::size_t b, const FittedJoin& join) const;
+
   /// The finest step in use, file units.
   double step() const;
 
@@ -76,8 +86,8 @@ class JoinFitter {
 };
 
 /// Best first; poses within 5 degrees and `same_distance` (at B's far end, file units) of a better one are left out.
-std::vector<JoinCandidate> distinct(std::vector<FittedJoin> joins, const Piece& b, double same_distance,
-                                    std::size_t most);
+std::vector<FittedJoin> distinct(std::vector<FittedJoin> joins, const Piece& b, double same_distance,
+                                 std::size_t most);
 
 /// 0..1 for an evidence; one half where true and false joins of a few hundred candidates are equally likely.
 double score_of(double evidence);

@@ -51,14 +51,14 @@ class Multiscale final : public Matcher {
   }
 
   PairResult match(std::size_t a, std::size_t b, const Context& context) const override {
-    std::vector<FittedJoin> joins;
-    add_joins(a, b, context, joins);
-    for (const std::size_t hole : holes_[a])
-      if (may_lie_in(b, hole)) add_joins(hole, b, context, joins);
-    for (const std::size_t hole : holes_[b])
-      if (may_lie_in(a, hole)) add_joins(a, hole, context, joins);
-    const double same = kSamePose * std::min(perimeters_[a], perimeters_[b]);
-    return {distinct(std::move(joins), (*pieces_)[b], same, kReported)};
+    // The search and the fits go along the first border, so the order decides what is found; the answer must not depend on it.
+    const bool exchange = perimeters_[a] < perimeters_[b];
+    std::vector<FittedJoin> joins = exchange ? joins_of(b, a, context) : joins_of(a, b, context);
+    PairResult result;
+    result.candidates.reserve(joins.size());
+    for (const FittedJoin& fitted : joins)
+      result.candidates.push_back(exchange ? exchanged(b, a, fitted).join : fitted.join);
+    return result;
   }
 
  private:
@@ -68,9 +68,39 @@ class Multiscale final : public Matcher {
     holes_.assign(pieces_->size(), {});
     for (const auto& [piece, hole] : fitter_->borders()) {
       if (hole > 0) holes_[piece].push_back(borders_.size());
-      borders_.push_back(&border_of((*pieces_)[piece].outline, hole));
+      borders_.push_back(&outline::border_of((*pieces_)[piece].outline, hole));
       perimeters_.push_back(perimeter(*borders_.back()));
     }
+  }
+
+  /// The places where b joins a, best first.
+  std::vector<FittedJoin> joins_of(std::size_t a, std::size_t b, const Context& context) const {
+    std::vector<FittedJoin> joins;
+    add_joins(a, b, context, joins);
+    for (const std::size_t hole : holes_[a])
+      if (may_lie_in(b, hole)) add_joins(hole, b, context, joins);
+    for (const std::size_t hole : holes_[b])
+      if (may_lie_in(a, hole)) add_joins(a, hole, context, joins);
+    const double same = kSamePose * std::min(perimeters_[a], perimeters_[b]);
+    joins = distinct(std::move(joins), (*pieces_)[b], same, kReported);
+    for (FittedJoin& fitted : joins) {
+      const Boundary& boundary = fitted.join.boundary;
+      fitted =
+          fitter_->fit_from_both_sides(border_of(a, boundary.hole_a), border_of(b, boundary.hole_b), fitted);
+    }
+    return distinct(std::move(joins), (*pieces_)[b], same, kReported);
+  }
+
+  FittedJoin exchanged(std::size_t a, std::size_t b, const FittedJoin& fitted) const {
+    const Boundary& boundary = fitted.join.boundary;
+    return fitter_->exchanged(border_of(a, boundary.hole_a), border_of(b, boundary.hole_b), fitted);
+  }
+
+  /// A piece's border among all borders.
+  std::size_t border_of(std::size_t piece, std::size_t hole) const {
+    if (hole == 0) return piece;
+    return *std::find_if(holes_[piece].begin(), holes_[piece].end(),
+                         [&](std::size_t border) { return fitter_->borders()[border].hole == hole; });
   }
 
   /// Whether a piece is small enough for a hole.

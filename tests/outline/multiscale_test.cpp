@@ -101,6 +101,37 @@ TEST(Multiscale, OneThreadAndManyGiveTheSame) {
   }
 }
 
+TEST(Multiscale, TheOrderOfThePiecesDoesNotMatter) {
+  for (std::uint64_t seed = 41; seed <= 43; ++seed) {
+    BrokenTile tile = broken_tile(300, 120, {1.3, {500, -200}, false}, seed);
+    Random random(seed);
+    for (Outline* outline : {&tile.lower, &tile.upper})
+      for (glm::dvec2& p : outline->points) p += glm::dvec2(0.3 * random.normal(), 0.3 * random.normal());
+    const std::vector<Piece> pieces = pieces_of(tile);
+    const auto matcher = make_multiscale();
+    matcher->prepare(pieces);
+    const auto one = matcher->match(0, 1, Context()).candidates;
+    const auto other = matcher->match(1, 0, Context()).candidates;
+    ASSERT_FALSE(one.empty());
+    ASSERT_EQ(one.size(), other.size());
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      EXPECT_EQ(one[i].score, other[i].score) << seed;
+      EXPECT_LT(worst_distance(one[i].pose, inverse(other[i].pose), tile.upper), 1e-9) << seed;
+      EXPECT_EQ(one[i].boundary.length, other[i].boundary.length) << seed;
+    }
+    // What begins the boundary on one piece ends it on the other.
+    const auto place = [&](std::size_t piece, double distance) {
+      const std::vector<glm::dvec2>& border = pieces[piece].outline.points;
+      return point_at(border, arc_lengths(border), distance);
+    };
+    const Boundary& first = one[0].boundary;
+    EXPECT_LT(glm::distance(place(0, first.begin_a), one[0].pose(place(1, first.begin_b))), 3.0) << seed;
+    const Boundary& second = other[0].boundary;
+    EXPECT_LT(glm::distance(place(1, second.begin_a), other[0].pose(place(0, second.begin_b))), 3.0) << seed;
+    EXPECT_LT(glm::distance(place(0, first.begin_a + first.length), place(0, second.begin_b)), 3.0) << seed;
+  }
+}
+
 // The unit (here a power of two, which rounds nothing) and the place of the pieces do not matter.
 TEST(Multiscale, UnitAndPlaceDoNotMatter) {
   const BrokenTile tile = broken_tile(300, 120, {2.0, {40, 30}, false}, 7);
