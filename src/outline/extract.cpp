@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
 #include "outline/detail/contour.hpp"
@@ -27,6 +28,11 @@ constexpr double kRectangle = 0.97;
 // More pieces than this of which the largest takes less than this share of the picture are hardly pieces.
 constexpr std::size_t kMany = 20;
 constexpr double kSmall = 0.01;
+// They are print if they lie on paper: what is this much farther from the background than its frame is, on the mean of many pixels,
+// and has this many times their area.
+constexpr double kPaperBlur = 4.0;
+constexpr double kFaint = 0.02;
+constexpr double kPaperArea = 2.5;
 /// Colours are taken this far inside, so that the background does not bleed in, pixels.
 constexpr double kColourDepth = 3.0;
 // A border is an edge where this share of what it rises by over the wide reach it rises by over the narrow one, in pixels to
@@ -169,6 +175,50 @@ bool is_bed(const Polygon& polygon, const cv::Mat& image) {
          signed_area(polygon) > kRectangle * (high.x - low.x) * (high.y - low.y);
 }
 
+double mean_of_frame(const cv::Mat& image) {
+  const int right = image.cols - 1;
+  const int below = image.rows - 1;
+  return 0.25 * (cv::mean(image.row(0))[0] + cv::mean(image.row(below))[0] + cv::mean(image.col(0))[0] +
+                 cv::mean(image.col(right))[0]);
+}
+
+/// Whether most pieces lie on something much larger than they are all together that hardly differs from the background.
+bool lie_on_paper(const std::vector<Polygon>& pieces, const cv::Mat& distance) {
+  cv::Mat soft;
+  cv::GaussianBlur(distance, soft, cv::Size(), kPaperBlur, kPaperBlur, cv::BORDER_REPLICATE);
+  cv::Mat labels;
+  cv::Mat stats;
+  cv::Mat centres;
+  const int count =
+      cv::connectedComponentsWithStats(soft > mean_of_frame(soft) + kFaint, labels, stats, centres);
+  std::vector<std::size_t> held(static_cast<std::size_t>(count), 0);
+  double area = 0.0;
+  for (const Polygon& piece : pieces) {
+    area += signed_area(piece);
+    const cv::Point place(static_cast<int>(std::clamp(piece[0].x, 0.0, labels.cols - 1.0)),
+                          static_cast<int>(std::clamp(piece[0].y, 0.0, labels.rows - 1.0)));
+    ++held[static_cast<std::size_t>(labels.at<int>(place))];
+  }
+  for (int i = 1; i < count; ++i) {
+    if (2 * held[static_cast<std::size_t>(i)] > pieces.size() &&
+        stats.at<int>(i, cv::CC_STAT_AREA) > kPaperArea * area)
+      return true;
+  }
+  return false;
+}
+
+/// \throws InputError what was found is print, as its paper has nearly the background's colour
+void require_no_print(const std::vector<Polygon>& pieces, const cv::Mat& distance, const std::string& path) {
+  const bool small = signed_area(pieces[0]) < kSmall * static_cast<double>(distance.total());
+  if (pieces.size() <= kMany || !small || !lie_on_paper(pieces, distance)) return;
+  throw InputError(
+      path,
+      fmt::format("{} small pieces on a large one that hardly differs from the background: they look like "
+                  "print, and their paper cannot be told from what lies behind it",
+                  pieces.size()),
+      "take the picture again before another colour");
+}
+
 /// What may have been taken for a piece in front of the background.
 /// \param outer  largest first   \param distance  detail::Coverage::distance
 void doubt_background(const std::vector<Polygon>& outer, const cv::Mat& distance,
@@ -220,6 +270,7 @@ Extraction extract(const std::string& path, const ExtractOptions& options) {
     throw InputError(path, "no piece: what stands out is smaller than a few pixels", "scan with more pixels");
   }
   std::move(coverage.notes.begin(), coverage.notes.end(), std::back_inserter(result.notes));
+  if (!coverage.distance.empty()) require_no_print(loops.outer, coverage.distance, path);
   judge_cut_pieces(loops.outer, image, result.notes);
   if (!coverage.distance.empty()) doubt_background(loops.outer, coverage.distance, result.notes);
   result.pieces.reserve(loops.outer.size());

@@ -29,8 +29,8 @@ bool has_piece_name(const std::string& path);
 
 /// Pieces of one file, by its name's ending:
 /// - png, jpg, jpeg, tif, tiff: pictures, see extract()
-/// - csv, txt: one outline, a point "x,y" a line (comma, semicolon, tab or blanks); "1,5;2,5" and "1,5 2,5" have
-///   decimal commas; a first line of words may say which columns are x and y, else they are the first two; y points up unless that line calls it y_down
+/// - csv, txt: one outline, or several closed ones with blank lines between them, a point "x,y" a line (comma, semicolon, tab or
+///   blanks); "1,5;2,5", "1,5 2,5" and fields in quotes have decimal commas; a first line of words may say which columns are x and y, else they are the first two; y points up unless that line calls it y_down
 /// - svg: each closed subpath of paths, polygons, rectangles, circles and ellipses is a border, one inside another a
 ///   hole; curves are flattened, transforms applied; what is hidden, drawn twice or covers the page is left out, with a
 ///   note, and so is told what a drawing has that is not read
