@@ -52,7 +52,7 @@ class Multiscale final : public Matcher {
 
   PairResult match(std::size_t a, std::size_t b, const Context& context) const override {
     // The search and the fits go along the first border, so the order decides what is found; the answer must not depend on it.
-    const bool exchange = perimeters_[a] < perimeters_[b];
+    const bool exchange = perimeters_[b] < perimeters_[a];
     std::vector<FittedJoin> joins = exchange ? joins_of(b, a, context) : joins_of(a, b, context);
     PairResult result;
     result.candidates.reserve(joins.size());
