@@ -31,8 +31,8 @@ outline::PieceSet read_folder_or_end(const std::string& folder) {
 /// A true join's score is hardly ever below.
 constexpr double kUnsure = 0.3;
 
-/// So many pairs take a few seconds if each is searched in full; 14 pieces have 91.
-constexpr std::size_t kFewPairs = 100;
+/// Those of six pieces.  More are seldom joined by one pair alone, and a search in full has more false candidates as well.
+constexpr std::size_t kFewPairs = 15;
 
 const Choices<OutlineMethod> kMethods{{"auto", OutlineMethod::Automatic},
                                       {"multiscale", OutlineMethod::Multiscale},
