@@ -94,7 +94,6 @@ std::string_view png_chunk(std::string_view bytes, std::string_view kind) {
   return {};
 }
 
-/// From the pHYs chunk: dots a metre.
 /// Whether its last chunk is there: libpng tells on stderr, past every stream, that it is not.
 bool png_is_whole(std::string_view bytes) {
   std::size_t place = kPngStart.size();
@@ -107,6 +106,7 @@ bool png_is_whole(std::string_view bytes) {
   return false;
 }
 
+/// From the pHYs chunk: dots a metre.
 double png_resolution(std::string_view bytes) {
   const std::string_view chunk = png_chunk(bytes, "pHYs");
   const auto across = number_at(chunk, 0, 4, true);
