@@ -82,7 +82,8 @@ void require_different_files(const CLI::App& command) {
     if (!is_file_output(*option)) continue;
     for (const std::string& value : option->results()) {
       std::error_code ignored;
-      const fs::path file = fs::weakly_canonical(value, ignored);
+      const fs::path file =
+          fs::weakly_canonical(fs::absolute(value), ignored);  // of a new file else as it is written
       if (fs::is_other(file, ignored)) continue;
       const auto [earlier, first] = option_of.emplace(file, option->get_name());
       if (!first)

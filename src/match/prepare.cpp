@@ -99,13 +99,14 @@ Fragment prepare(std::string path, mesh::Mesh scan, const Context& context) {
   fragment.diameter = mesh::diameter(fragment.surface);
   fragment.resolution = mesh::resolution(fragment.surface);
   fragment.noise = mesh::noise(fragment.surface);
-  const bool noisy = fragment.noise > kNoisy * fragment.resolution;
+  const bool noisy =
+      fragment.noise > kNoisy * fragment.resolution && mesh::is_of_scanner(fragment.noise, fragment.surface);
   mesh::Mesh even;
   if (noisy) {
     even = mesh::smooth(fragment.surface, mesh::kSmoothRadius * fragment.resolution);
     fragment.noise_left = mesh::kNoiseLeft * fragment.noise;
+    clock.lap("smooth");
   }
-  clock.lap("smooth");
   const mesh::Mesh& matched = noisy ? even : fragment.surface;
   fragment.coarse = matched.faces.size() > kCoarseFaces ? mesh::simplify(matched, kCoarseFaces) : matched;
   fragment.middle = view_centre(fragment.coarse);

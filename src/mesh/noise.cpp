@@ -14,6 +14,9 @@ namespace {
 
 constexpr std::size_t kPlaces = 2000;  // at least, where there are as many points
 constexpr std::size_t kNeighbours = 20;
+constexpr std::size_t kSurroundings = 20;    // a scan has as many at least, if they are to be small
+constexpr std::size_t kMoreNeighbours = 45;  // within 1.5 times the radius
+constexpr double kAlike = 1.3;         // noise grows by 1.08 to 1.12, shape by 1.5 to 2.9 (docs/scoring.md)
 constexpr std::size_t kEnough = 12;    // for the six unknowns of a quadric
 constexpr std::size_t kSmoothest = 4;  // one place in so many is smoother
 
@@ -29,9 +32,8 @@ double noise_of(const std::vector<glm::vec3>& points, const std::vector<std::uin
   return radius * detail::quadric_residual(local);
 }
 
-}  // namespace
-
-double noise(const Mesh& mesh) {
+/// noise() by quadrics through so many points.
+double noise_over(const Mesh& mesh, std::size_t count) {
   const std::vector<glm::vec3>& points = mesh.vertices;
   const std::vector<glm::vec3> normals = area_normals(mesh);
   const PointIndex index(points);
@@ -41,7 +43,7 @@ double noise(const Mesh& mesh) {
     std::vector<std::uint32_t> near;
     for (std::size_t k = first; k < last; ++k) {
       const auto here = static_cast<std::uint32_t>(k * step);
-      index.nearest(points[here], kNeighbours, near);
+      index.nearest(points[here], count, near);
       std::erase_if(near, [&](std::uint32_t i) { return !(glm::dot(normals[i], normals[here]) > 0.0F); });
       if (near.size() >= kEnough) places[k] = noise_of(points, near);
     }
@@ -51,6 +53,17 @@ double noise(const Mesh& mesh) {
   const auto quarter = places.begin() + static_cast<std::ptrdiff_t>(places.size() / kSmoothest);
   std::nth_element(places.begin(), quarter, places.end());
   return *quarter;
+}
+
+}  // namespace
+
+double noise(const Mesh& mesh) {
+  return noise_over(mesh, kNeighbours);
+}
+
+bool is_of_scanner(double noise, const Mesh& mesh) {
+  if (mesh.vertices.size() < kSurroundings * kMoreNeighbours) return false;
+  return noise_over(mesh, kMoreNeighbours) < kAlike * noise;
 }
 
 }  // namespace rejoin::mesh

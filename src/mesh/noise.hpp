@@ -11,4 +11,9 @@ namespace rejoin::mesh {
 /// \pre the mesh has faces
 double noise(const Mesh& mesh);
 
+/// Whether noise() told the noise of a scanner, which a quadric over more points leaves as it is.  What shape there is between points
+/// that are too far apart for it grows with the surroundings.  Of fewer than 900 points nothing can be told.
+/// \param noise  of the mesh
+bool is_of_scanner(double noise, const Mesh& mesh);
+
 }  // namespace rejoin::mesh

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "core/random.hpp"
 #include "shapes.hpp"
@@ -44,6 +45,20 @@ TEST(Noise, RoughBreaksAreNotNoise) {
     if (v.z > kRadius / 3) v.z += 2.0F * std::sin(0.5F * v.x) * std::cos(0.5F * v.y);
   }
   EXPECT_LT(noise(sphere), 1.3 * before);
+}
+
+TEST(Noise, IsToldFromShapeThatThePointsAreTooFarApartFor) {
+  const Mesh scan = scanned_sphere(0.3);
+  EXPECT_TRUE(is_of_scanner(noise(scan), scan));
+  // Waves as long as five spacings, all over, as far off a quadric as that noise.
+  Mesh waves = scanned_sphere(0.01);
+  const double wave = 2.0 * std::numbers::pi / (5.0 * resolution(waves));
+  for (glm::vec3& v : waves.vertices) {
+    const glm::dvec3 p(v);
+    v *= 1.0F + static_cast<float>(0.03 * std::sin(wave * p.x) * std::sin(wave * p.y) * std::sin(wave * p.z));
+  }
+  EXPECT_GT(noise(waves), 0.1 * resolution(waves));
+  EXPECT_FALSE(is_of_scanner(noise(waves), waves));
 }
 
 TEST(Noise, GrowsWithTheUnitAndKnowsNoPlace) {
