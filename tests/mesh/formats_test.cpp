@@ -366,14 +366,15 @@ TEST(Obj, ReadsTextOfAnySystem) {
   }
 }
 
-TEST(Obj, ThatEndsWithinALineIsToldAsOneThatMayBeCutShort) {
+TEST(Obj, ThatEndsWithinALineAndHasVerticesWithoutFacesMayBeCutShort) {
   const TemporaryFolder folder;
-  const std::string text = "v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3";
-  for (const char* whole : {"\n", "\r\n", "\n# written by hand"})
-    EXPECT_TRUE(load(folder.write("a.obj", text + whole)).warnings.empty()) << whole;
+  const std::string text = "v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 3 2";
+  const std::string rest = "\nf 1 2 4\nf 2 3 4\nf 1 4 3";
+  for (const std::string& whole : {text + rest, text + rest + "\n# by hand", text + "\n"})
+    EXPECT_TRUE(load(folder.write("a.obj", whole)).warnings.empty()) << whole;
   const Loaded cut = load(folder.write("a.obj", text));
   ASSERT_EQ(cut.warnings.size(), 1U);
-  EXPECT_NE(cut.warnings[0].find("a.obj: ends within a line"), std::string::npos) << cut.warnings[0];
+  EXPECT_NE(cut.warnings[0].find("a line and has no faces at 1 of 4"), std::string::npos) << cut.warnings[0];
 }
 
 TEST(Xyz, ReadsPointsWithNormalsAndColoursWhereverTheyStand) {

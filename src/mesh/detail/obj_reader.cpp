@@ -36,11 +36,8 @@ bool ends_within_a_line(std::string_view text) {
 
 class ObjReader {
  public:
-  explicit ObjReader(const Source& source) : folder_(source.path.parent_path()), lines_(source) {
-    if (ends_within_a_line(source.bytes))
-      soup_.notes.emplace_back(
-          "ends within a line, so that it may be cut short (copy or export it again if faces are missing)");
-  }
+  explicit ObjReader(const Source& source)
+      : folder_(source.path.parent_path()), lines_(source), may_be_cut_(ends_within_a_line(source.bytes)) {}
 
   Soup read() {
     while (lines_.next_line()) {
@@ -62,6 +59,7 @@ class ObjReader {
       }
     }
     check_corners();
+    doubt_end();
     assign_normals();
     if (coloured_ == soup_.points.size()) {
       soup_.colours = std::move(colours_);
@@ -72,6 +70,19 @@ class ObjReader {
   }
 
  private:
+  /// Many writers leave the last line end out; where a copy stopped vertices have no faces, too, as faces come last.
+  void doubt_end() {
+    if (!may_be_cut_ || soup_.sizes.empty()) return;
+    std::vector<bool> used(soup_.points.size(), false);
+    for (const std::uint32_t corner : soup_.corners) used[corner] = true;
+    const auto unused = std::ranges::count(used, false);
+    if (unused == 0) return;
+    soup_.notes.push_back(
+        fmt::format("ends within a line and has no faces at {} of {} vertices: it may be cut short (copy or "
+                    "export it again if faces are missing)",
+                    unused, used.size()));
+  }
+
   /// From its corner on, faces are of a material.
   struct Use {
     std::string material;
@@ -206,6 +217,7 @@ class ObjReader {
 
   std::filesystem::path folder_;
   TextLines lines_;
+  bool may_be_cut_;
   Soup soup_;
   std::vector<glm::vec3> normals_;
   std::vector<glm::u8vec3> colours_;
