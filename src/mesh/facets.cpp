@@ -11,6 +11,7 @@
 #include "mesh/detail/facet_table.hpp"
 #include "mesh/detail/grow.hpp"
 #include "mesh/detail/local_fit.hpp"
+#include "mesh/detail/mean_normals.hpp"
 #include "mesh/detail/open_walls.hpp"
 #include "mesh/neighbours.hpp"
 #include "mesh/point_index.hpp"
@@ -42,32 +43,7 @@ constexpr double kWideOfSize = 0.25;  // of the piece: breaks of an open scan ar
 constexpr double kMostOfOpen = 0.2;   // of the piece: its breaks measure less across
 constexpr double kWideWalls = 2.5;    // wall thicknesses: breaks are narrower
 
-using Lists = std::vector<std::vector<std::uint32_t>>;
-
-Lists neighbours_within(const Samples& samples, double radius) {
-  const Neighbours neighbours(samples.points, static_cast<float>(radius));
-  Lists lists(samples.size());
-  parallel_for(samples.size(), 256, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) neighbours.of(samples.points[i], lists[i]);
-  });
-  return lists;
-}
-
-/// Mean normal of the neighbours that look the same way (the far side of a thin wall does not).
-std::vector<glm::vec3> smooth_normals(const std::vector<glm::vec3>& normals, const Lists& near) {
-  std::vector<glm::vec3> smooth(normals.size());
-  parallel_for(normals.size(), 256, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      glm::vec3 sum(0.0F);
-      for (const auto k : near[i]) {
-        if (glm::dot(normals[k], normals[i]) > 0.0F) sum += normals[k];
-      }
-      const float length = glm::length(sum);
-      smooth[i] = length > 0.0F ? sum / length : normals[i];
-    }
-  });
-  return smooth;
-}
+using detail::Lists;
 
 /// Fracture normals averaged across the whole strip, so that growing follows the strip's course and not its
 /// bevels.
@@ -106,7 +82,7 @@ float roughness_at(const Samples& samples, const std::vector<glm::vec3>& normals
 
 std::vector<float> roughness_of(const Samples& samples, const std::vector<glm::vec3>& normals) {
   const double radius = kQuadricRadius * samples.spacing;
-  const Lists near = neighbours_within(samples, radius);
+  const Lists near = detail::neighbours_within(samples.points, radius);
   std::vector<float> rough(samples.size());
   parallel_for(samples.size(), 128, [&](std::size_t first, std::size_t last) {
     std::vector<glm::dvec3> local;
@@ -144,7 +120,7 @@ Lists voters_of(const Segmentation& s) {
 }
 
 /// A single normal of a noisy scan leans by ten degrees and more, their mean over a wall thickness hardly.
-std::vector<glm::vec3> mean_normals(const std::vector<glm::vec3>& normals, const Lists& voters) {
+std::vector<glm::vec3> normals_over(const std::vector<glm::vec3>& normals, const Lists& voters) {
   std::vector<glm::vec3> means = normals;
   parallel_for(means.size(), 1024, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
@@ -162,7 +138,7 @@ std::vector<glm::vec3> mean_normals(const std::vector<glm::vec3>& normals, const
 void classify_thin(Segmentation& s, const InwardRays& rays, const std::vector<bool>& wide) {
   const auto t = static_cast<float>(s.wall_thickness);
   const Lists voters = voters_of(s);
-  const std::vector<glm::vec3> normals = mean_normals(s.normals, voters);
+  const std::vector<glm::vec3> normals = normals_over(s.normals, voters);
   const PointIndex index(s.samples.points);
   const auto is_wall = [&](std::size_t i) {
     if (!wide.empty() && wide[i]) return true;
@@ -235,8 +211,8 @@ struct Look {
 /// Samples the surface; all of it counts as fracture at first.
 Look look(const Mesh& mesh, std::size_t samples, Segmentation& s) {
   s.samples = sample_surface(mesh, samples);
-  Lists near = neighbours_within(s.samples, kSmoothRadius * s.samples.spacing);
-  s.normals = smooth_normals(s.samples.normals, near);
+  Lists near = detail::neighbours_within(s.samples.points, kSmoothRadius * s.samples.spacing);
+  s.normals = detail::mean_normals(s.samples.normals, near, 0.0F);
   s.surface.assign(s.samples.size(), Surface::Fracture);
   InwardRays rays = cast_inwards(mesh, s.samples, s.normals);
   return {std::move(near), std::move(rays)};

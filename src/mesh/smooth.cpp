@@ -7,14 +7,13 @@
 #include "core/parallel.hpp"
 #include "core/rigid.hpp"
 #include "mesh/area_normals.hpp"
-#include "mesh/neighbours.hpp"
+#include "mesh/detail/mean_normals.hpp"
 
 namespace rejoin::mesh {
 namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
-using Lists = std::vector<std::vector<std::uint32_t>>;
 
 constexpr int kRounds = 2;           // the first finds the normals that the second needs
 constexpr int kNormalRounds = 2;     // a single normal of a noisy scan leans by 30 degrees and more
@@ -23,37 +22,14 @@ constexpr float kSmooth = 0.7F;      // and to those of the points that a quadri
 constexpr double kSpread = 0.3;      // of the radius: deviation of the weights
 constexpr std::size_t kEnough = 12;  // for the six unknowns of a quadric
 
-Lists neighbours_of(const std::vector<glm::vec3>& points, float radius) {
-  const Neighbours neighbours(points, radius);
-  Lists lists(points.size());
-  parallel_for(points.size(), 256, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) neighbours.of(points[i], lists[i]);
-  });
-  return lists;
-}
-
-glm::vec3 unit_or(const glm::vec3& vector, const glm::vec3& other) {
-  const float length = glm::length(vector);
-  return length > 0.0F ? vector / length : other;
-}
-
-/// Unit means over the neighbourhood.
-std::vector<glm::vec3> mean_normals(const Mesh& mesh, const Lists& near) {
+std::vector<glm::vec3> normals_of(const Mesh& mesh, const detail::Lists& near) {
   std::vector<glm::vec3> normals = area_normals(mesh);
-  for (glm::vec3& normal : normals) normal = unit_or(normal, {0.0F, 0.0F, 1.0F});
-  for (int round = 0; round < kNormalRounds; ++round) {
-    std::vector<glm::vec3> means = normals;
-    parallel_for(means.size(), 512, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) {
-        glm::vec3 sum(0.0F);
-        for (const auto k : near[i]) {
-          if (glm::dot(normals[k], normals[i]) > kSameSide) sum += normals[k];
-        }
-        means[i] = unit_or(sum, normals[i]);
-      }
-    });
-    normals = std::move(means);
+  for (glm::vec3& normal : normals) {
+    const float length = glm::length(normal);
+    normal = length > 0.0F ? normal / length : glm::vec3(0.0F, 0.0F, 1.0F);
   }
+  for (int round = 0; round < kNormalRounds; ++round)
+    normals = detail::mean_normals(normals, near, kSameSide);
   return normals;
 }
 
@@ -101,8 +77,8 @@ std::vector<glm::vec3> to_ring_middles(const Mesh& mesh) {
 Mesh smooth(const Mesh& mesh, double radius) {
   Mesh even = mesh;
   for (int round = 0; round < kRounds; ++round) {
-    const Lists near = neighbours_of(even.vertices, static_cast<float>(radius));
-    const std::vector<glm::vec3> normals = mean_normals(even, near);
+    const detail::Lists near = detail::neighbours_within(even.vertices, radius);
+    const std::vector<glm::vec3> normals = normals_of(even, near);
     std::vector<glm::vec3> moves = to_ring_middles(even);
     parallel_for(moves.size(), 128, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {

@@ -1,0 +1,21 @@
+/// Normals averaged over neighbourhoods.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+namespace rejoin::mesh::detail {
+
+using Lists = std::vector<std::vector<std::uint32_t>>;
+
+/// Of every point the points closer than the radius, itself among them.
+Lists neighbours_within(std::span<const glm::vec3> points, double radius);
+
+/// Unit means over the neighbours that look about the same way, as the far side of a thin wall does not.
+/// \param near   of every normal's point
+/// \param alike  cosine of the angle to the point's own normal, above which a neighbour counts
+std::vector<glm::vec3> mean_normals(const std::vector<glm::vec3>& normals, const Lists& near, float alike);
+
+}  // namespace rejoin::mesh::detail
