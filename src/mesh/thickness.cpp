@@ -16,7 +16,9 @@ constexpr double kThinnest = 1.0 / 4096.0;
 constexpr double kMostOfSize = 0.12;  // of a thin piece
 constexpr double kMostOfSherd = 0.2;  // of one whose walls run parallel nearly everywhere
 constexpr float kParallel = 0.95F;    // within 18 degrees
-constexpr double kEvenLow = 0.8;      // of the thickness
+constexpr double kLeastParallel =
+    0.2;                          // of a thin piece's surface: two cracks of a solid run parallel by chance
+constexpr double kEvenLow = 0.8;  // of the thickness
 constexpr double kEvenHigh = 1.25;
 
 }  // namespace
@@ -74,7 +76,8 @@ double wall_thickness(const InwardRays& rays, double size) {
     if (rays.square[i] > kSquare && ratio > 0.6 && ratio < 1.6) near.push_back(rays.length[i]);
     if (rays.square[i] > kParallel && ratio > kEvenLow && ratio < kEvenHigh) ++parallel;
   }
-  const bool thin = guess <= kMostOfSize * size && 3 * near.size() >= rays.length.size();
+  const bool thin = guess <= kMostOfSize * size && 3 * near.size() >= rays.length.size() &&
+                    static_cast<double>(parallel) >= kLeastParallel * static_cast<double>(rays.length.size());
   const bool sherd = guess <= kMostOfSherd * size && 2 * parallel >= rays.length.size();
   if (!thin && !sherd) return 0.0;
   const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
