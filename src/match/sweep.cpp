@@ -25,10 +25,12 @@ constexpr double kWorthALook = 1.3;  // and at least: looks with hardly larger p
 constexpr double kTurnsKept = 0.15;  // share of a first look's turns that get a second
 constexpr std::size_t kLeastTurns = 3;
 constexpr double kSlack = 0.25;  // of a step of the second look, by which its turns may lie further apart
-constexpr int kPeaksNear = 200;  // a turn, where all but those near a rough pose are dropped
+constexpr int kPeaks = 6;        // kept a turn,
+constexpr int kPeaksNear = 200;  // and where all but those near a rough pose are dropped
 constexpr double kWorn = 0.18;   // wall thicknesses from a wall, where a break is taken for worn,
 constexpr double kLeastUnworn = 0.3;  // unless less than that of a facet lies farther
 constexpr double kSmallFacet = 0.02;  // of the largest facet's area: too small to tell
+constexpr double kLargeFacet = 0.25;  // of the largest facet's area: may join with a part alone
 
 /// Pixel size of the maps, mesh units.
 double pitch_for(const FacetPatch& a, const FacetPatch& b, double resolution) {
@@ -116,14 +118,23 @@ std::vector<SweepHit> distinct(std::vector<SweepHit> hits, double near, const gl
 
 /// A facet that may join.
 struct SweptFacet {
-  int facet = -1;  ///< match/cuts.hpp
-  FacetPatch patch;
+  int facet = -1;    ///< match/cuts.hpp
+  FacetPatch patch;  ///< the facet, or a part of it, whose outline says nothing
 };
 
 struct Task {
   const SweptFacet* a;
   const SweptFacet* b;
+  float outline_weight;
 };
+
+/// \param peaks  a turn
+CorrelateOptions correlate_options(const Task& task, int peaks) {
+  CorrelateOptions options;
+  options.outline_weight = task.outline_weight;
+  options.most_peaks = peaks;
+  return options;
+}
 
 double turn_step(const FacetPatch& a, const FacetPatch& b, double pitch, double step_px) {
   return std::clamp(2.0 * step_px * pitch / std::min(a.length, b.length), 0.02, 0.25);
@@ -142,12 +153,14 @@ std::vector<ReliefMap> turned_maps(const FacetPatch& b, double pitch, const std:
 
 /// Of turns all around (near the rough pose, if there is one), those at which the patches agree best, each as `parts` of its step.
 /// \param evaluations  poses looked at are added
-std::vector<double> best_turns(const FacetPatch& a, const FacetPatch& b, double pitch,
-                               const std::vector<double>& all_around, int parts,
-                               const std::optional<Near>& near, const Context& context, long& evaluations) {
+std::vector<double> best_turns(const Task& task, double pitch, const std::vector<double>& all_around,
+                               int parts, const std::optional<Near>& near, const Context& context,
+                               long& evaluations) {
+  const FacetPatch& a = task.a->patch;
+  const FacetPatch& b = task.b->patch;
   const std::vector<double> turns = turns_near(near, a, b, all_around);
   const std::vector<ReliefMap> maps = turned_maps(b, pitch, turns, context);
-  Correlator correlator(relief_of(a, pitch), {.most_peaks = 1});
+  Correlator correlator(relief_of(a, pitch), correlate_options(task, 1));
   std::vector<std::pair<float, std::size_t>> ranked;
   for (const std::size_t t : correlator.cheapest_order(maps)) {
     if (context.cancelled()) break;
@@ -184,16 +197,14 @@ SweepResult correlate_patches(const Task& task, double resolution, const SweepOp
     const double coarse_pitch = kCoarse * wanted;
     const double coarse_step = turn_step(a, b, coarse_pitch, options.turn_step_px);
     const int parts = static_cast<int>(std::ceil(coarse_step / step - kSlack));
-    turns = best_turns(a, b, coarse_pitch, turns_for(a, b, coarse_step), parts, options.near, context,
+    turns = best_turns(task, coarse_pitch, turns_for(a, b, coarse_step), parts, options.near, context,
                        result.evaluations);
   }
   if (turns.empty()) return result;
 
   const ReliefMap map_a = relief_of(a, pitch);
   const std::vector<ReliefMap> maps_b = turned_maps(b, pitch, turns, context);
-  CorrelateOptions peaks;
-  if (options.near) peaks.most_peaks = kPeaksNear;
-  Correlator correlator(map_a, peaks);
+  Correlator correlator(map_a, correlate_options(task, options.near ? kPeaksNear : kPeaks));
   for (const std::size_t t : correlator.cheapest_order(maps_b)) {
     if (context.cancelled()) break;
     for (const Agreement& peak : correlator.peaks(maps_b[t])) {
@@ -242,33 +253,69 @@ std::vector<int> unworn(const mesh::Segmentation& s, const std::vector<int>& fac
   return rest;
 }
 
+double largest_fracture(const mesh::Cut& cut) {
+  double largest = 0.0;
+  for (const auto& facet : cut.facets) {
+    if (facet.fracture) largest = std::max(largest, facet.area);
+  }
+  return largest;
+}
+
+/// Of one cut, the facets that may join.
+/// \param first  number of the cut's first facet
+/// \return indices into the cut's facets
+std::vector<int> joinable(const mesh::Cut& cut, int first, const std::vector<int>& chosen) {
+  const double least = kSmallFacet * largest_fracture(cut);
+  std::vector<int> list;
+  for (int f = 0; f < static_cast<int>(cut.facets.size()); ++f) {
+    const auto& facet = cut.facets[static_cast<std::size_t>(f)];
+    const bool wanted = chosen.empty() ? facet.fracture && facet.area > least
+                                       : std::find(chosen.begin(), chosen.end(), first + f) != chosen.end();
+    if (wanted) list.push_back(f);
+  }
+  return list;
+}
+
 /// The facets of one cut that may join.
 /// \param first  number of the cut's first facet
 std::vector<SweptFacet> candidates(const Fragment& fragment, const mesh::Cut& cut, int first,
                                    const std::vector<int>& chosen) {
   if (cut.facets.empty()) return {};
-  double largest = 0.0;
-  for (const auto& facet : cut.facets) {
-    if (facet.fracture) largest = std::max(largest, facet.area);
-  }
   std::vector<int> facet_of_face = mesh::facet_of_faces(cut, fragment.sample_of_face);
   if (fragment.facets.wall_thickness > 0)
     facet_of_face = unworn(fragment.facets, facet_of_face, fragment.sample_of_face);
   std::vector<SweptFacet> list;
-  for (int f = 0; f < static_cast<int>(cut.facets.size()); ++f) {
-    const auto& facet = cut.facets[static_cast<std::size_t>(f)];
-    const bool wanted = chosen.empty() ? facet.fracture && facet.area > kSmallFacet * largest
-                                       : std::find(chosen.begin(), chosen.end(), first + f) != chosen.end();
-    if (!wanted) continue;
+  for (const int f : joinable(cut, first, chosen)) {
     list.push_back({first + f, cut_patch(fragment.coarse, facet_of_face, cut, f)});
     if (list.back().patch.points.empty()) list.pop_back();
   }
   return list;
 }
 
-void add_tasks(const std::vector<SweptFacet>& a, const std::vector<SweptFacet>& b, std::vector<Task>& tasks) {
+/// The quarters of the large facets of one cut: where two breaks share a part alone and third pieces lie between the rest, the
+/// rest, seen as one with it, says that they do not agree.
+/// \param first  number of the cut's first facet
+std::vector<SweptFacet> parts(const Fragment& fragment, const mesh::Cut& cut, int first,
+                              const std::vector<int>& chosen) {
+  const double least = kLargeFacet * largest_fracture(cut);
+  std::vector<int> large = joinable(cut, first, chosen);
+  std::erase_if(large, [&](int f) { return cut.facets[static_cast<std::size_t>(f)].area < least; });
+  const mesh::Cut quarters = mesh::quarters(fragment.facets, cut, large);
+  const std::vector<int> facet_of_face = mesh::facet_of_faces(quarters, fragment.sample_of_face);
+  std::vector<SweptFacet> list;
+  for (int k = 0; k < static_cast<int>(quarters.facets.size()); ++k) {
+    const std::uint32_t sample = quarters.facets[static_cast<std::size_t>(k)].samples.front();
+    list.push_back(
+        {first + cut.facet_of_sample[sample], cut_patch(fragment.coarse, facet_of_face, quarters, k)});
+    if (list.back().patch.points.empty()) list.pop_back();
+  }
+  return list;
+}
+
+void add_tasks(const std::vector<SweptFacet>& a, const std::vector<SweptFacet>& b, float outline_weight,
+               std::vector<Task>& tasks) {
   for (const SweptFacet& x : a) {
-    for (const SweptFacet& y : b) tasks.push_back({&x, &y});
+    for (const SweptFacet& y : b) tasks.push_back({&x, &y, outline_weight});
   }
 }
 
@@ -279,9 +326,13 @@ SweepResult sweep(const Fragment& a, const Fragment& b, const SweepOptions& opti
   const auto seen_b = candidates(b, b.facets, 0, options.facets_b);
   const auto creased_a = candidates(a, a.facets.creased, facet_numbers(a).creased, options.facets_a);
   const auto creased_b = candidates(b, b.facets.creased, facet_numbers(b).creased, options.facets_b);
+  const auto parts_a = parts(a, a.facets.creased, facet_numbers(a).creased, options.facets_a);
+  const auto parts_b = parts(b, b.facets.creased, facet_numbers(b).creased, options.facets_b);
+  const float outlines = CorrelateOptions{}.outline_weight;
   std::vector<Task> tasks;
-  add_tasks(seen_a, seen_b, tasks);
-  add_tasks(creased_a, creased_b, tasks);
+  add_tasks(seen_a, seen_b, outlines, tasks);
+  add_tasks(creased_a, creased_b, outlines, tasks);
+  add_tasks(parts_a, parts_b, 0.0F, tasks);
   const double resolution = std::max(a.resolution, b.resolution);
   std::vector<SweepResult> parts(tasks.size());
   std::mutex reporting;

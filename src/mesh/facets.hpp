@@ -58,6 +58,12 @@ struct Segmentation : Cut {
 Segmentation segment(const Mesh& mesh, double size);
 Segmentation segment(const Mesh& mesh);
 
+/// Parts of facets: each is halved across its longest extent, and so are the halves.
+/// \param cut  of the segmentation
+/// \param facets  those of `cut` that are parted, indices
+/// \return the parts alone; the facet of a part is that of any of its samples in `cut`
+Cut quarters(const Segmentation& segmentation, const Cut& cut, const std::vector<int>& facets);
+
 /// Share of the surface behind which nothing lies: large for a scan from one side.
 double unbacked_share(const Segmentation& segmentation);
 

@@ -55,25 +55,57 @@ TEST(Sweep, AWavyCutComesFirst) {
   EXPECT_LT(turn_between(swept.hits.front(), pair.truth), 4.0);
 }
 
+/// Heights of a rough surface, mm.
+class Roughness {
+ public:
+  Roughness(std::uint64_t seed, double share) {
+    constexpr int kWaves = 48;
+    Random random(seed);
+    for (int k = 0; k < kWaves; ++k) {
+      const double length = 3.0 * std::exp2(random.uniform(0, 3));
+      const double direction = random.uniform(0, 3.14);
+      waves_.emplace_back(6.28 / length * std::cos(direction), 6.28 / length * std::sin(direction),
+                          random.uniform(0, 6.28), share * length);
+    }
+  }
+
+  double at(const glm::dvec2& place) const {
+    double z = 0.0;
+    for (const glm::dvec4& wave : waves_)
+      z += wave.w * std::sin(wave.x * place.x + wave.y * place.y + wave.z);
+    return z;
+  }
+
+ private:
+  std::vector<glm::dvec4> waves_;  // along x and y, phase, height
+};
+
 /// A part of a block that is broken along a bent and rough surface: 80 mm of it from shift - 40 on.
 Fragment bent_part(bool below, float shift, std::uint64_t seed) {
-  constexpr int kWaves = 48;
-  Random random(seed);
-  std::vector<glm::dvec4> waves;  // along x and y, phase, height
-  for (int k = 0; k < kWaves; ++k) {
-    const double length = 3.0 * std::exp2(random.uniform(0, 3));
-    const double direction = random.uniform(0, 3.14);
-    waves.emplace_back(6.28 / length * std::cos(direction), 6.28 / length * std::sin(direction),
-                       random.uniform(0, 6.28), 0.005 * length);
-  }
+  const Roughness roughness(seed, 0.005);
   mesh::Mesh half = half_block(below, 100);
   for (auto& v : half.vertices) {
     v.x += shift;
     if (std::abs(v.z) == static_cast<float>(kHalfZ)) continue;
     const glm::dvec2 at(v.x, v.y);
-    double z = 10.0 - glm::dot(at, at) / 200.0;
-    for (const glm::dvec4& wave : waves) z += wave.w * std::sin(wave.x * at.x + wave.y * at.y + wave.z);
-    v.z = static_cast<float>(z);
+    v.z = static_cast<float>(10.0 - glm::dot(at, at) / 200.0 + roughness.at(at));
+  }
+  return prepare(below ? "below" : "above", half, Context{});
+}
+
+/// Half of a block whose break is the other half's up to x = -12; from there on a third piece lay between, as thin as a blade at first.
+Fragment half_beside_a_wedge(bool below, std::uint64_t seed) {
+  const Roughness shared(seed, 0.004);
+  const Roughness own(seed + (below ? 1000 : 2000), 0.004);
+  constexpr double kEdge = -12;
+  mesh::Mesh half = half_block(below, 100);
+  for (auto& v : half.vertices) {
+    if (std::abs(v.z) == static_cast<float>(kHalfZ)) continue;
+    const glm::dvec2 at(v.x, v.y);
+    const double beyond = std::max(0.0, at.x - kEdge);
+    const double blend = std::min(1.0, beyond / 4.0);
+    const double rise = (below ? -0.12 : 0.12) * beyond;
+    v.z = static_cast<float>(rise + (1 - blend) * shared.at(at) + blend * own.at(at));
   }
   return prepare(below ? "below" : "above", half, Context{});
 }
@@ -89,6 +121,21 @@ TEST(Sweep, BentBreaksThatShareAPartAreAmongTheFirst) {
     const auto hits = sweep(a, b, {}, Context{}).hits;
     ASSERT_GE(hits.size(), 10U);
     EXPECT_TRUE(std::any_of(hits.begin(), hits.begin() + 10, [&](const SweepHit& hit) {
+      return turn_between(hit, truth) < 6.0 && glm::distance(hit.pose(middle), truth(middle)) < 4.0;
+    })) << seed;
+  }
+}
+
+// What two breaks do not share, seen as one with what they share, says that they do not agree.
+TEST(Sweep, BreaksThatPartAtAThirdPieceAreAmongTheFirst) {
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
+    const Fragment a = half_beside_a_wedge(true, seed);
+    const Fragment b = half_beside_a_wedge(false, seed);
+    const Rigid truth = to_origins(a, b, Rigid{});
+    const glm::dvec3 middle = mesh::centroid(b.surface);
+    const auto hits = sweep(a, b, {}, Context{}).hits;
+    ASSERT_FALSE(hits.empty());
+    EXPECT_TRUE(std::any_of(hits.begin(), hits.end(), [&](const SweepHit& hit) {
       return turn_between(hit, truth) < 6.0 && glm::distance(hit.pose(middle), truth(middle)) < 4.0;
     })) << seed;
   }

@@ -41,5 +41,41 @@ TEST(Thickness, SlabWithABrokenSideHasNoWall) {
   EXPECT_EQ(segment(slab).wall_thickness, 0.0);
 }
 
+/// Rays of which two fifths leave at about a tenth of the size, at this cosine.
+InwardRays rays_of_a_slab(float square) {
+  InwardRays rays;
+  for (int k = 0; k < 1000; ++k) {
+    const bool through = k < 400;
+    rays.length.push_back(through ? 10.0F + 0.005F * static_cast<float>(k - 200) : 60.0F);
+    rays.square.push_back(through ? square : 0.5F);
+  }
+  return rays;
+}
+
+// Two cracks of a solid object may run side by side, but they are not parallel.
+TEST(Thickness, SlabBetweenCracksThatLeanOnEachOtherHasNoWall) {
+  EXPECT_EQ(wall_thickness(rays_of_a_slab(0.88F), 100.0), 0.0);
+  EXPECT_NEAR(wall_thickness(rays_of_a_slab(0.99F), 100.0), 10.0, 0.3);
+}
+
+TEST(Quarters, AreCompactPartsOfTheirFacetOfOneSizeAndHoldAllOfIt) {
+  const Segmentation segmentation = segment(box({60, 50, 40}, 24, flat));
+  ASSERT_GE(segmentation.facets.size(), 6U);
+  const Cut parts = quarters(segmentation, segmentation, {0, 3});
+  ASSERT_EQ(parts.facets.size(), 8U);
+  std::size_t held = 0;
+  for (const Facet& part : parts.facets) {
+    const int whole = segmentation.facet_of_sample[part.samples.front()];
+    EXPECT_TRUE(whole == 0 || whole == 3);
+    const Facet& facet = segmentation.facets[static_cast<std::size_t>(whole)];
+    for (const auto i : part.samples) EXPECT_EQ(segmentation.facet_of_sample[i], whole);
+    EXPECT_NEAR(static_cast<double>(part.samples.size()), static_cast<double>(facet.samples.size()) / 4, 1.0);
+    EXPECT_NEAR(part.length, facet.length / 2, 0.1 * facet.length);
+    EXPECT_GT(glm::dot(part.normal, facet.normal), 0.99);
+    held += part.samples.size();
+  }
+  EXPECT_EQ(held, segmentation.facets[0].samples.size() + segmentation.facets[3].samples.size());
+}
+
 }  // namespace
 }  // namespace rejoin::mesh
