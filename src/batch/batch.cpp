@@ -136,7 +136,7 @@ class Work {
     done_before_ = progress_.done;
   }
 
-  /// Once of each scan, as soon as sizes are known; of groups once those of all are.
+  /// Once of each scan, as soon as sizes are known; of units once those of all are.
   void warn_of_sizes() {
     std::vector<store::Fragment> known;
     bool all_known = true;
@@ -144,16 +144,18 @@ class Work {
       known.push_back(fragment);
       all_known = all_known && (fragment.state != store::FragmentState::Waiting || copies_.count(name) != 0);
     }
+    if (all_known && !units_looked_at_) {
+      units_looked_at_ = true;
+      const OddUnit unit = odd_unit(known);
+      if (!unit.fragments.empty()) listener_.on_warning(told(unit), progress_);
+      for (const store::Fragment& fragment : unit.fragments) doubted_.insert(fragment.name);
+    }
     OddSizes odd = odd_sizes(known);
     odd.fragments.erase(
         std::remove_if(odd.fragments.begin(), odd.fragments.end(),
                        [this](const auto& fragment) { return !doubted_.insert(fragment.name).second; }),
         odd.fragments.end());
     if (!odd.fragments.empty()) listener_.on_warning(told(odd), progress_);
-    if (!all_known || groups_looked_at_) return;
-    groups_looked_at_ = true;
-    const std::string groups = told_of_ten_times(known);
-    if (!groups.empty()) listener_.on_warning(groups, progress_);
   }
 
   /// Name, path and hash of the fragments of this shard, and of their copies.
@@ -303,7 +305,7 @@ class Work {
   std::map<std::string, store::Fragment> fragments_;
   std::set<std::pair<std::int64_t, std::int64_t>> done_;
   std::set<std::string> doubted_;  // names of which warn_of_sizes() has told
-  bool groups_looked_at_ = false;  // by warn_of_sizes()
+  bool units_looked_at_ = false;   // by warn_of_sizes()
   std::size_t done_before_ = 0;
   Progress progress_;
   Pace pace_;

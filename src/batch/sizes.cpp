@@ -41,7 +41,7 @@ std::string told(const OddSizes& odd) {
                      named(odd.fragments), odd.median);
 }
 
-std::string told_of_ten_times(const std::vector<store::Fragment>& fragments) {
+OddUnit odd_unit(const std::vector<store::Fragment>& fragments) {
   std::vector<store::Fragment> ready;
   std::vector<match::Lengths> lengths;
   for (const store::Fragment& fragment : fragments) {
@@ -49,19 +49,37 @@ std::string told_of_ten_times(const std::vector<store::Fragment>& fragments) {
     ready.push_back(fragment);
     lengths.push_back({fragment.diameter, fragment.spacing, fragment.noise, fragment.wall});
   }
-  const auto groups = match::ten_times_apart(lengths);
-  if (!groups) return "";
+  const auto groups = match::units_apart(lengths);
+  if (!groups) return {};
+  OddUnit odd;
   const bool small = groups->small.size() <= groups->large.size();
-  std::vector<store::Fragment> odd;
-  for (const std::size_t k : small ? groups->small : groups->large) odd.push_back(ready[k]);
+  for (const std::size_t k : small ? groups->small : groups->large) odd.fragments.push_back(ready[k]);
+  odd.ratio = small ? 1 / groups->ratio : groups->ratio;
+  return odd;
+}
+
+std::string told(const OddUnit& odd) {
+  if (odd.fragments.empty()) return "";
+  const bool small = odd.ratio < 1;
+  const double times = small ? 1 / odd.ratio : odd.ratio;
+  const auto units = match::likely_units(times);
   return fmt::format(
-      "{}: every length (diameter, points' spacing, noise, wall) is about {} of the others; are all scans in "
-      "the same unit, none in centimetres beside millimetres?",
-      named(odd), small ? "a tenth of those" : "ten times those");
+      "{}: every length (diameter, points' spacing, noise, wall) is about {}{:.0f}{}; are all scans in the "
+      "same unit{}?",
+      named(odd.fragments), small ? "1/" : "", times,
+      small ? " of those of the others" : " times those of the others",
+      units ? fmt::format(", none in {} beside {}", small ? units->of_small : units->of_large,
+                          small ? units->of_large : units->of_small)
+            : "");
 }
 
 std::vector<std::string> doubts_about_units(const std::vector<store::Fragment>& fragments) {
-  std::vector<std::string> doubts{told(odd_sizes(fragments)), told_of_ten_times(fragments)};
+  const OddUnit unit = odd_unit(fragments);
+  OddSizes sizes = odd_sizes(fragments);
+  std::erase_if(sizes.fragments, [&](const store::Fragment& fragment) {
+    return std::ranges::count(unit.fragments, fragment.name, &store::Fragment::name) > 0;
+  });
+  std::vector<std::string> doubts{told(unit), told(sizes)};
   std::erase(doubts, "");
   return doubts;
 }

@@ -19,11 +19,19 @@ OddSizes odd_sizes(const std::vector<store::Fragment>& fragments);
 /// A line for the user; empty if there are none.
 std::string told(const OddSizes& odd);
 
-/// A line of scans of which every length is about ten times that of the others, or a tenth (match::ten_times_apart()), those that are
-/// fewer; empty if there are none.
-std::string told_of_ten_times(const std::vector<store::Fragment>& fragments);
+/// Scans of which every length differs from those of the others alike (match::units_apart()).
+struct OddUnit {
+  std::vector<store::Fragment> fragments;  ///< the group that is fewer
+  double ratio = 1;  ///< of its lengths to those of the others, below 1 where they are smaller
+};
 
-/// Both lines, without the empty ones.
+/// Looks at those that are ready.
+OddUnit odd_unit(const std::vector<store::Fragment>& fragments);
+
+/// A line for the user; empty if there are none.
+std::string told(const OddUnit& odd);
+
+/// Both lines, without the empty ones; a scan of an odd unit is told as such alone.
 std::vector<std::string> doubts_about_units(const std::vector<store::Fragment>& fragments);
 
 }  // namespace rejoin::batch

@@ -84,16 +84,22 @@ bool is_there(const std::filesystem::path& file) {
 
 /// What to tell of sizes that no two pieces of one object have; empty: nothing.
 std::vector<std::string> doubts_about_units(const match::Fragment& a, const match::Fragment& b) {
-  if (match::units_differ(a.diameter, b.diameter)) {
-    return {fmt::format("{} has a diameter of {:.3g}, {} of {:.3g}: are both in the same unit?", a.path,
-                        a.diameter, b.path, b.diameter)};
+  const auto groups = match::units_apart({match::lengths_of(a), match::lengths_of(b)});
+  if (groups) {
+    const bool a_is_small = groups->small.front() == 0;
+    const std::string& small = (a_is_small ? a : b).path;
+    const std::string& large = (a_is_small ? b : a).path;
+    const auto units = match::likely_units(groups->ratio);
+    return {fmt::format(
+        "{}: every length (diameter, points' spacing, noise, wall) is about {:.0f} times those of "
+        "{}; are both in the same unit{}?",
+        large, groups->ratio, small,
+        units ? fmt::format(", not this one in {} and the other in {}", units->of_large, units->of_small)
+              : "")};
   }
-  if (!match::ten_times_apart({match::lengths_of(a), match::lengths_of(b)})) return {};
-  const bool a_is_small = a.diameter < b.diameter;
-  return {
-      fmt::format("{}: every length (diameter, points' spacing, noise, wall) is about a tenth of those of "
-                  "{}; are both in the same unit, not one in centimetres and one in millimetres?",
-                  (a_is_small ? a : b).path, (a_is_small ? b : a).path)};
+  if (!match::units_differ(a.diameter, b.diameter)) return {};
+  return {fmt::format("{} has a diameter of {:.3g}, {} of {:.3g}: are both in the same unit?", a.path,
+                      a.diameter, b.path, b.diameter)};
 }
 
 class MatchCommand final : public Command {

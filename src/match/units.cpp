@@ -1,5 +1,8 @@
 #include "match/units.hpp"
 
+#include <array>
+#include <cmath>
+
 #include "core/median.hpp"
 
 namespace rejoin::match {
@@ -10,7 +13,10 @@ using Length = double Lengths::*;
 // Between the groups, at least: the walls of one vessel differ by less.
 constexpr double kGap = 2.5;
 constexpr double kLeast = 4.0;
-constexpr double kMost = 25.0;
+// Between a length's ratio and the common one: pieces of one object differ in size, scans of one scanner in their spacing and noise.
+constexpr double kMostUnlike = 2.5;
+// Between a ratio and that of two units.
+constexpr double kMostOff = 1.5;
 
 std::vector<double> known(const std::vector<Lengths>& scans, const std::vector<std::size_t>& group,
                           Length length) {
@@ -21,42 +27,55 @@ std::vector<double> known(const std::vector<Lengths>& scans, const std::vector<s
   return values;
 }
 
-bool differ_ten_times(const std::vector<Lengths>& scans, const TenTimes& groups, Length length) {
+std::optional<double> ratio_of(const std::vector<Lengths>& scans, const UnitGroups& groups, Length length) {
   std::vector<double> small = known(scans, groups.small, length);
   std::vector<double> large = known(scans, groups.large, length);
-  if (small.empty() || large.empty()) return false;
-  const double ratio = median(large) / median(small);
-  return ratio > kLeast && ratio < kMost;
+  if (small.empty() || large.empty()) return std::nullopt;
+  return median(large) / median(small);
 }
 
 /// Solid pieces have no walls.
-bool walls_differ(const std::vector<Lengths>& scans, const TenTimes& groups) {
-  const std::vector<double> small = known(scans, groups.small, &Lengths::wall);
-  const std::vector<double> large = known(scans, groups.large, &Lengths::wall);
-  if (small.empty() && large.empty()) return true;
-  return differ_ten_times(scans, groups, &Lengths::wall) &&
-         *std::ranges::min_element(large) > kGap * *std::ranges::max_element(small);
+bool are_solid(const std::vector<Lengths>& scans, const UnitGroups& groups) {
+  return known(scans, groups.small, &Lengths::wall).empty() &&
+         known(scans, groups.large, &Lengths::wall).empty();
 }
 
-bool are_ten_times_apart(const std::vector<Lengths>& scans, const TenTimes& groups) {
-  for (const Length length : {&Lengths::diameter, &Lengths::spacing, &Lengths::noise}) {
-    if (!differ_ten_times(scans, groups, length)) return false;
+bool walls_have_a_gap(const std::vector<Lengths>& scans, const UnitGroups& groups) {
+  return std::ranges::min(known(scans, groups.large, &Lengths::wall)) >
+         kGap * std::ranges::max(known(scans, groups.small, &Lengths::wall));
+}
+
+/// Of the lengths, if all differ alike; it is that of those which the size of a piece has no influence on.
+std::optional<double> common_ratio(const std::vector<Lengths>& scans, const UnitGroups& groups) {
+  const bool solid = are_solid(scans, groups);
+  std::vector<double> ratios;
+  double logs = 0;
+  for (const Length length : {&Lengths::diameter, &Lengths::spacing, &Lengths::noise, &Lengths::wall}) {
+    if (length == &Lengths::wall && solid) continue;
+    const std::optional<double> ratio = ratio_of(scans, groups, length);
+    if (!ratio || *ratio <= kLeast) return std::nullopt;
+    ratios.push_back(*ratio);
+    if (length != &Lengths::diameter) logs += std::log(*ratio);
   }
-  return walls_differ(scans, groups);
+  if (!solid && !walls_have_a_gap(scans, groups)) return std::nullopt;
+  const double common = std::exp(logs / static_cast<double>(ratios.size() - 1));
+  const auto [least, most] = std::ranges::minmax(ratios);
+  if (most > kMostUnlike * common || common > kMostUnlike * least) return std::nullopt;
+  return common;
 }
 
 /// Those of known length below every gap, and those above it.
-std::vector<TenTimes> split_at_gaps(const std::vector<Lengths>& scans, Length length) {
+std::vector<UnitGroups> split_at_gaps(const std::vector<Lengths>& scans, Length length) {
   std::vector<std::size_t> order;
   for (std::size_t k = 0; k < scans.size(); ++k) {
     if (scans[k].*length > 0) order.push_back(k);
   }
   std::ranges::stable_sort(order, {}, [&](std::size_t k) { return scans[k].*length; });
-  std::vector<TenTimes> splits;
+  std::vector<UnitGroups> splits;
   for (std::size_t k = 1; k < order.size(); ++k) {
     if (scans[order[k]].*length <= kGap * (scans[order[k - 1]].*length)) continue;
     const auto gap = order.begin() + static_cast<std::ptrdiff_t>(k);
-    splits.push_back({{order.begin(), gap}, {gap, order.end()}});
+    splits.push_back({{order.begin(), gap}, {gap, order.end()}, 1});
     std::ranges::sort(splits.back().small);
     std::ranges::sort(splits.back().large);
   }
@@ -69,13 +88,32 @@ Lengths lengths_of(const Fragment& fragment) {
   return {fragment.diameter, fragment.resolution, fragment.noise, fragment.facets.wall_thickness};
 }
 
-std::optional<TenTimes> ten_times_apart(const std::vector<Lengths>& scans) {
+std::optional<UnitGroups> units_apart(const std::vector<Lengths>& scans) {
   for (const Length length : {&Lengths::wall, &Lengths::spacing}) {
-    for (const TenTimes& groups : split_at_gaps(scans, length)) {
-      if (are_ten_times_apart(scans, groups)) return groups;
+    for (UnitGroups& groups : split_at_gaps(scans, length)) {
+      const std::optional<double> ratio = common_ratio(scans, groups);
+      if (!ratio) continue;
+      groups.ratio = *ratio;
+      return groups;
     }
   }
   return std::nullopt;
+}
+
+std::optional<Units> likely_units(double ratio) {
+  struct Known {
+    double ratio;
+    Units units;
+  };
+  static constexpr std::array<Known, 5> kKnown{{{10.0, {"centimetres", "millimetres"}},
+                                                {25.4, {"inches", "millimetres"}},
+                                                {39.37, {"metres", "inches"}},
+                                                {100.0, {"metres", "centimetres"}},
+                                                {1000.0, {"metres", "millimetres"}}}};
+  const auto off = [ratio](const Known& known) { return std::abs(std::log(ratio / known.ratio)); };
+  const Known& nearest = *std::ranges::min_element(kKnown, {}, off);
+  if (off(nearest) > std::log(kMostOff)) return std::nullopt;
+  return nearest.units;
 }
 
 }  // namespace rejoin::match

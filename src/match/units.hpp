@@ -31,15 +31,26 @@ struct Lengths {
 Lengths lengths_of(const Fragment& fragment);
 
 /// Two groups of scans, by their numbers, ascending.
-struct TenTimes {
+struct UnitGroups {
   std::vector<std::size_t> small;
   std::vector<std::size_t> large;
+  double ratio = 1;  ///< how many times the lengths of the large are those of the small, above 1
 };
 
-/// Scans as in centimetres beside scans as in millimetres: two groups between whose walls, or whose spacings, a gap lies, and of which
-/// the medians of all lengths differ by about ten times.  Small pieces of one box have the wall, the noise or the spacing of large
-/// ones.  Inches beside centimetres (2.54 times) cannot be told from other sherds.
+/// Scans as in centimetres, inches or metres beside scans as in millimetres: two groups between whose walls, or whose spacings, a gap
+/// lies, and of which the medians of all lengths differ alike, more than four times.  Small pieces of one box have the wall, the noise
+/// or the spacing of large ones.  Inches beside centimetres (2.54 times) cannot be told from other sherds.
 /// \return nullopt if there are no such groups; split by their walls, a scan without one is in neither
-std::optional<TenTimes> ten_times_apart(const std::vector<Lengths>& scans);
+std::optional<UnitGroups> units_apart(const std::vector<Lengths>& scans);
+
+/// Units whose scans have such a ratio: "inches" and "millimetres".
+struct Units {
+  const char* of_small;
+  const char* of_large;
+};
+
+/// \param ratio  as of UnitGroups
+/// \return nullopt if no two of millimetre, centimetre, inch and metre are about so many times apart
+std::optional<Units> likely_units(double ratio);
 
 }  // namespace rejoin::match

@@ -32,26 +32,37 @@ TEST(Sizes, OneOfTwoIsTold) {
   EXPECT_EQ(told(odd_sizes({})), "");
 }
 
-TEST(Sizes, TheFewerOfTwoGroupsTenTimesApartAreNamed) {
+/// Scans of equal pieces in units of so many millimetres.
+std::vector<store::Fragment> box_of(const std::vector<double>& units) {
   std::vector<store::Fragment> box;
-  for (const double unit : {1.0, 0.1, 1.0}) {
-    store::Fragment scan = fragment(unit < 1 ? "in_cm" : "in_mm", 100 * unit);
-    scan.spacing = 0.5 * unit;
-    scan.noise = 0.03 * unit;
-    scan.wall = 6 * unit;
+  for (const double unit : units) {
+    store::Fragment scan = fragment(unit > 1 ? "other" : "in_mm", 100 / unit);
+    scan.spacing = 0.5 / unit;
+    scan.noise = 0.03 / unit;
+    scan.wall = 6 / unit;
     box.push_back(scan);
   }
   box.emplace_back();  // not ready
-  const std::string small = told_of_ten_times(box);
-  EXPECT_EQ(small.find("in_cm (diameter 10): every length"), 0U) << small;
-  EXPECT_NE(small.find("a tenth"), std::string::npos) << small;
-  EXPECT_EQ(doubts_about_units(box), std::vector<std::string>{small});
+  return box;
+}
 
-  box.push_back(box[1]);
-  box.push_back(box[1]);
-  const std::string large = told_of_ten_times(box);
+TEST(Sizes, TheFewerOfTwoGroupsOfUnitsAreNamed) {
+  const std::string small = told(odd_unit(box_of({1, 10, 1})));
+  EXPECT_EQ(small.find("other (diameter 10): every length"), 0U) << small;
+  EXPECT_NE(small.find("about 1/10 of those of the others"), std::string::npos) << small;
+  EXPECT_NE(small.find("none in centimetres beside millimetres"), std::string::npos) << small;
+
+  const std::string large = told(odd_unit(box_of({1, 25.4, 1, 25.4, 25.4})));
   EXPECT_EQ(large.find("in_mm (diameter 100), in_mm (diameter 100): every length"), 0U) << large;
-  EXPECT_NE(large.find("ten times"), std::string::npos) << large;
+  EXPECT_NE(large.find("about 25 times those of the others"), std::string::npos) << large;
+  EXPECT_NE(large.find("none in millimetres beside inches"), std::string::npos) << large;
+}
+
+TEST(Sizes, AScanOfAnOddUnitIsToldOnce) {
+  for (const double unit : {10.0, 1000.0}) {
+    const std::vector<store::Fragment> box = box_of({1, unit, 1});
+    EXPECT_EQ(doubts_about_units(box), std::vector<std::string>{told(odd_unit(box))}) << unit;
+  }
 }
 
 }  // namespace

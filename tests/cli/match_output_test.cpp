@@ -50,7 +50,9 @@ TEST_F(MatchOutput, WarnsOfScansInDifferentUnits) {
   mesh::save(path, metres);
   const Finished finished = run({"match", a, path, "--json", json});
   EXPECT_EQ(finished.exit_code, 0) << finished.err;
-  EXPECT_NE(finished.err.find("same unit?"), std::string::npos) << finished.err;
+  EXPECT_NE(finished.err.find("the same unit, not this one in millimetres and the other in metres?"),
+            std::string::npos)
+      << finished.err;
   const ordered_json warnings = ordered_json::parse(read_file(json))["warnings"];
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_NE(warnings[0].get<std::string>().find(path), std::string::npos) << warnings[0];
