@@ -136,7 +136,7 @@ struct Progress {
 };
 
 struct Result {
-  std::vector<Candidate> candidates;  ///< best first, distinct; empty only if nothing could be tried
+  std::vector<Candidate> candidates;  ///< by rank(), distinct; empty only if nothing could be tried
   Verdict verdict = Verdict::NoJoin;
   std::optional<Stability> stability;  ///< of the best candidate; nullopt if it was not probed
   /// Else the pair was not promising: the best pose is the only candidate, and its depth-map errors are not measured.

@@ -87,7 +87,7 @@ struct Pair {
 
 /// A pose at which a pair may join.  Figures that were not measured are infinite.
 struct Candidate {
-  int rank = 0;  ///< from 1, best first
+  int rank = 0;  ///< from 1, likeliest first, which need not be the highest score
   double score = 0;
   Rigid pose;  ///< B's file coordinates -> A's file coordinates
   int facet_a = -1;

@@ -60,7 +60,7 @@ class Run {
   /// All pairs that are done, by ids, ascending; far cheaper than pairs().
   std::vector<Done> done() const;
 
-  /// The poses of a pair, best first.
+  /// The poses of a pair, by rank.
   std::vector<Candidate> candidates(const Pair& pair) const;
   std::vector<Candidate> candidates(std::int64_t a, std::int64_t b) const;
 
