@@ -3,7 +3,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -28,7 +27,6 @@ namespace {
 
 constexpr const char* kUnfinished =
     "interrupted before the search was finished: verdict and score, of the best pose so far, are no finding";
-constexpr const char* kKept = " is kept as an earlier match wrote it";
 
 const Choices<bool> kProposers = {{"facets", false}, {"rims", true}};
 
@@ -75,11 +73,6 @@ std::string summary(const match::Result& result, bool near) {
                      error.contact_area, measured(error.gap_median, 3), error.penetration) +
          fmt::format("whole fragments: slope difference {}, ray-cast {}, overlap {}\n",
                      measured(error.slope, 4), measured(error.raycast, 4), percent(error.overlap));
-}
-
-bool is_there(const std::filesystem::path& file) {
-  std::error_code ignored;
-  return std::filesystem::exists(file, ignored);
 }
 
 /// What to tell of sizes that no two pieces of one object have; empty: nothing.
@@ -162,11 +155,10 @@ class MatchCommand final : public Command {
     }
     tell_times(console, a, b, result);
     const double seconds = seconds_since(begin);
-    const bool keep_json = json_ && result.cancelled && std::filesystem::is_regular_file(*json_);
-    if (json_ && !keep_json) write_file(*json_, match_json(a, b, options, result, seconds));
+    if (json_ && result.cancelled && keeps_earlier(*json_, {*json_}, "match", console)) json_.reset();
+    if (json_) write_file(*json_, match_json(a, b, options, result, seconds));
     console.result(summary(result, near_.has_value()));
-    if (keep_json) console.warning(*json_ + kKept);
-    if (json_ && !keep_json) console.wrote(*json_);
+    if (json_) console.wrote(*json_);
     if (out_) write_folder(console, a, b, result);
     return result.cancelled ? kInterrupted : kDone;
   }
@@ -210,9 +202,8 @@ class MatchCommand final : public Command {
     std::vector<std::filesystem::path> files;
     if (!result.cancelled) {
       files = report::write_match_outputs(*out_, a, b, result);
-    } else if (std::ranges::any_of(report::match_outputs(*out_), is_there)) {
-      console.warning(*out_ + kKept);
-    } else if (!result.candidates.empty()) {
+    } else if (!keeps_earlier(*out_, report::match_outputs(*out_), "match", console) &&
+               !result.candidates.empty()) {
       // The joined model only: pictures take longer than a user who wants to stop will wait.
       files.emplace_back(std::filesystem::path(*out_) / mesh::kJoinedPly);
       mesh::save_scene(files[0],

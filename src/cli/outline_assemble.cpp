@@ -9,6 +9,7 @@
 #include "cli/arguments.hpp"
 #include "cli/outline_command.hpp"
 #include "cli/outline_json.hpp"
+#include "cli/outputs.hpp"
 #include "core/files.hpp"
 #include "core/words.hpp"
 #include "outline/assembly.hpp"
@@ -76,10 +77,7 @@ class OutlineAssembleCommand final : public Command {
     console.detail(fmt::format("assembled after {:.2f} s", seconds_since(begin)));
     console.end_progress();
     if (assembly.cancelled) console.warning("interrupted; what follows is less than possible");
-    if (json_ && assembly.cancelled && std::filesystem::is_regular_file(*json_)) {
-      console.warning(*json_ + " is kept as an earlier assembly wrote it");
-      json_.reset();
-    }
+    if (json_ && assembly.cancelled && keeps_earlier(*json_, {*json_}, "assembly", console)) json_.reset();
     if (json_) {
       const OutlineSearch search{name_of(method_), seconds_since(begin), assembly.cancelled};
       write_file(*json_, assembly_json(set, assembly, search));

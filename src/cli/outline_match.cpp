@@ -85,20 +85,23 @@ class OutlineMatchCommand final : public Command {
     console.end_progress();
     console.detail(fmt::format("compared by {} after {:.2f} s, {} candidates", name_of(method_), seconds,
                                result.candidates.size()));
-    if (context.cancelled()) console.warning("interrupted; what follows is the best so far");
+    const bool cancelled = context.cancelled();
+    if (cancelled) console.warning("interrupted; what follows is the best so far");
+    if (json_ && cancelled && keeps_earlier(*json_, {*json_}, "match", console)) json_.reset();
     if (json_) {
-      const OutlineSearch search{name_of(method_), seconds, context.cancelled()};
+      const OutlineSearch search{name_of(method_), seconds, cancelled};
       write_file(*json_, outline_match_json(pieces[0], pieces[1], result, search));
     }
     console.result(summary(pieces[0], pieces[1], result));
     if (json_) console.result(fmt::format("wrote {}\n", *json_));
-    if (out_) remove_earlier();
-    if (out_ && !context.cancelled()) {
+    if (out_ && cancelled) keeps_earlier(*out_, report::outline_match_pictures(*out_), "match", console);
+    if (out_ && !cancelled) {
+      remove_earlier();
       for (const std::filesystem::path& file :
            report::write_outline_match_pictures(*out_, pieces[0], pieces[1], result, verdict_of(result)))
         console.result(fmt::format("wrote {}\n", file.string()));
     }
-    return context.cancelled() ? kInterrupted : kDone;
+    return cancelled ? kInterrupted : kDone;
   }
 
  private:

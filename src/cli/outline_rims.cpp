@@ -7,6 +7,7 @@
 
 #include "cli/fragment.hpp"
 #include "cli/json_values.hpp"
+#include "cli/outputs.hpp"
 #include "core/files.hpp"
 #include "core/version.hpp"
 #include "match/verify.hpp"
@@ -53,19 +54,21 @@ std::string summary(const std::vector<rims::Proposal>& proposals) {
 
 }  // namespace
 
-ExitCode match_rims(const std::string& path_a, const std::string& path_b,
-                    const std::optional<std::string>& json, Console& console, Context& context) {
+ExitCode match_rims(const std::string& path_a, const std::string& path_b, std::optional<std::string> json,
+                    Console& console, Context& context) {
   const match::Fragment a = load_fragment(path_a, console, context);
   const match::Fragment b = load_fragment(path_b, console, context);
   const auto begin = std::chrono::steady_clock::now();
   const std::vector<rims::Proposal> proposals = rims::propose(a, b, {}, context);
   const double seconds = seconds_since(begin);
   console.end_progress();
-  if (context.cancelled()) console.warning("interrupted; what follows is the best so far");
-  if (json) write_file(*json, proposals_json(a, b, proposals, seconds, context.cancelled()));
+  const bool cancelled = context.cancelled();
+  if (cancelled) console.warning("interrupted; what follows is the best so far");
+  if (json && cancelled && keeps_earlier(*json, {*json}, "match", console)) json.reset();
+  if (json) write_file(*json, proposals_json(a, b, proposals, seconds, cancelled));
   console.result(summary(proposals));
   if (json) console.result(fmt::format("wrote {}\n", *json));
-  return context.cancelled() ? kInterrupted : kDone;
+  return cancelled ? kInterrupted : kDone;
 }
 
 }  // namespace rejoin::cli

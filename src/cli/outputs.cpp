@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <map>
@@ -139,6 +140,16 @@ void require_ending(const std::string& option, const std::optional<std::string>&
   if (!file || fs::path(*file).extension() == ending) return;
   throw UsageError(option, fmt::format("'{}' does not end in {}", *file, ending),
                    fmt::format("name a {} file", ending));
+}
+
+bool keeps_earlier(const std::filesystem::path& output, const std::vector<std::filesystem::path>& files,
+                   const char* earlier, Console& console) {
+  const bool any = std::ranges::any_of(files, [](const std::filesystem::path& file) {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(file, ignored);
+  });
+  if (any) console.warning(fmt::format("{} is kept as an earlier {} wrote it", output.string(), earlier));
+  return any;
 }
 
 void require_sound_paths(const CLI::App& command) {

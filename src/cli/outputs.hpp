@@ -5,6 +5,9 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "cli/console.hpp"
 
 namespace rejoin::cli {
 
@@ -37,6 +40,12 @@ void require_apart_from_run(const std::string& option, const std::filesystem::pa
 /// \throws UsageError an output's name does not end in `ending`, such as ".png"
 void require_ending(const std::string& option, const std::optional<std::string>& file,
                     const std::string& ending);
+
+/// Whether an interrupted command leaves an output as an earlier one wrote it; if so, that is told.
+/// \param files   what the output consists of; one that is there is enough
+/// \param earlier  what it is of: "match"
+bool keeps_earlier(const std::filesystem::path& output, const std::vector<std::filesystem::path>& files,
+                   const char* earlier, Console& console);
 
 /// Looks at the values of a parsed command's, and its commands', options in the groups "Input" and "Output".
 /// \throws UsageError an input or output is empty, an output is a file that is read too or a scan or piece in a folder that is read,

@@ -214,7 +214,7 @@ std::vector<std::filesystem::path> write_outline_match_pictures(const std::files
   return files;
 }
 
-std::array<std::filesystem::path, 2> outline_match_pictures(const std::filesystem::path& folder) {
+std::vector<std::filesystem::path> outline_match_pictures(const std::filesystem::path& folder) {
   return {folder / kMatch, folder / kJoined};
 }
 

@@ -1,7 +1,6 @@
 /// Pictures of a pair of flat pieces.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -24,6 +23,6 @@ std::vector<std::filesystem::path> write_outline_match_pictures(const std::files
                                                                 const std::string& verdict);
 
 /// The files that write_outline_match_pictures() may write.
-std::array<std::filesystem::path, 2> outline_match_pictures(const std::filesystem::path& folder);
+std::vector<std::filesystem::path> outline_match_pictures(const std::filesystem::path& folder);
 
 }  // namespace rejoin::report

@@ -274,6 +274,34 @@ TEST(OutlineMatch, CtrlCWhileReadingEndsAtOnceWith130) {
   EXPECT_EQ(finished.out, "");
 }
 
+// Borders of ten thousands of points take long enough for the signal to arrive in the search.
+TEST(OutlineMatch, AfterCtrlCAnEarlierMatchStays) {
+  const TemporaryFolder folder;
+  const std::string pieces = folder / "pieces";
+  const Finished made =
+      run({"outline", "shatter", pieces, "--shapes", "1", "--pieces", "2", "--resolution", "1500"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const std::string file = folder / "match.json";
+  const std::string pictures = folder / "pictures";
+  const auto interrupted = [&] {
+    Running running({"outline", "match", pieces + "/piece_000.csv", pieces + "/piece_001.csv", "--method",
+                     "lcs", "--json", file, "--out", pictures, "--verbose"});
+    EXPECT_TRUE(running.wait_for_stderr("read both pieces"));
+    running.interrupt();
+    Finished finished = running.finish();
+    EXPECT_EQ(finished.exit_code, 130) << finished.err;
+    return finished;
+  };
+  interrupted();
+  EXPECT_TRUE(json::parse(read_file(file))["search"]["interrupted"].get<bool>()) << "where none is";
+
+  for (const std::string& earlier : {file, pictures + "/match.png"}) write_file(earlier, "old");
+  const Finished finished = interrupted();
+  for (const std::string& earlier : {file, pictures + "/match.png"}) EXPECT_EQ(read_file(earlier), "old");
+  for (const std::string& output : {file, pictures})
+    EXPECT_NE(finished.err.find(output + " is kept"), std::string::npos) << finished.err;
+}
+
 TEST(OutlineCalibrate, JoinsThatAreNoneAreRefused) {
   const BrokenShapes shapes;
   write_file(shapes / "joins.json", R"({"joins": [3]})");
