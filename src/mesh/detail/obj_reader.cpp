@@ -27,13 +27,6 @@ constexpr auto kSkipped = std::to_array<std::string_view>(
      "lod",   "maplib", "usemap", "shadow_obj", "trace_obj", "ctech", "stech",    "call",
      "csh",   "bsp",    "bzp",    "cdc",        "cdp",       "res"});
 
-/// Whether the last statement lacks its line end, as where a copy stopped: a number cut short is a number too.
-bool ends_within_a_line(std::string_view text) {
-  const std::size_t start = text.find_last_of("\n\r") + 1;  // 0 if there is no line end
-  const std::size_t word = text.find_first_not_of(" \t", start);
-  return word != std::string_view::npos && text[word] != '#';
-}
-
 class ObjReader {
  public:
   explicit ObjReader(const Source& source)

@@ -42,6 +42,12 @@ std::optional<T> parse(std::string_view word) {
 
 }  // namespace
 
+bool ends_within_a_line(std::string_view text) {
+  const std::size_t start = text.find_last_of("\n\r") + 1;  // 0 if there is no line end
+  const std::size_t word = text.find_first_not_of(" \t", start);
+  return word != std::string_view::npos && text[word] != '#';
+}
+
 std::optional<double> to_number(std::string_view word) {
   return parse<double>(word);
 }

@@ -49,6 +49,9 @@ class TextLines {
   std::size_t number_ = 0;
 };
 
+/// Whether the last statement lacks its line end, as where a copy stopped: a number cut short is a number too.
+bool ends_within_a_line(std::string_view text);
+
 /// A whole word as a floating-point number ("nan" and "inf" included); infinite or 0 where it is beyond what one holds.
 std::optional<double> to_number(std::string_view word);
 

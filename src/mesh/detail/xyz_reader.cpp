@@ -19,6 +19,7 @@ namespace {
 struct Rows {
   std::vector<double> numbers;
   std::size_t columns = 0;
+  bool may_be_cut = false;  ///< the file ends within a line, maybe within a number
 
   std::size_t size() const { return columns == 0 ? 0 : numbers.size() / columns; }
   glm::dvec3 triple(std::size_t row, std::size_t column) const {
@@ -68,6 +69,27 @@ void read_row(TextLines& lines, Rows& rows, Promise& promised) {
     lines.fail(fmt::format("{} numbers, where lines before have {}", count, rows.columns));
 }
 
+/// Characters behind the point of the line's last number.
+std::size_t decimals_at_end(std::string_view line) {
+  const std::string_view number = line.substr(line.find_last_of(" \t") + 1);
+  const std::size_t point = number.find('.');
+  return point == std::string_view::npos ? 0 : number.size() - point - 1;
+}
+
+/// Many writers leave the last line end out; where a copy stopped the last number has fewer decimals than any above it, too.
+bool may_be_cut(const Source& source) {
+  if (!ends_within_a_line(source.bytes)) return false;
+  TextLines lines(source);
+  lines.next_line();  // may name the columns, or count the points
+  std::optional<std::size_t> fewest;
+  std::optional<std::size_t> last;
+  while (lines.next_line()) {
+    if (last) fewest = std::min(*last, fewest.value_or(*last));
+    last = decimals_at_end(lines.rest());
+  }
+  return fewest && *last < *fewest;
+}
+
 Rows read_rows(const Source& source) {
   TextLines lines(source);
   Rows rows;
@@ -83,6 +105,7 @@ Rows read_rows(const Source& source) {
         fmt::format("its first line promises {} points but the file ends after {}", *promised, rows.size()),
         "copy or export the file again");
   }
+  rows.may_be_cut = may_be_cut(source);
   return rows;
 }
 
@@ -122,6 +145,11 @@ bool is_colour(const glm::dvec3& v) {
 Soup read_xyz(const Source& source) {
   const Rows rows = read_separated_rows(source);
   Soup soup;
+  if (rows.may_be_cut)
+    soup.notes.emplace_back(
+        "ends within a line, in a number with fewer decimals than those above it: it may be cut short (copy "
+        "or "
+        "export it again)");
   const std::size_t normal = find_triple(rows, is_normal);
   const std::size_t colour = find_triple(rows, is_colour);
   for (std::size_t row = 0; row < rows.size(); ++row) {
