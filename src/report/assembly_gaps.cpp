@@ -1,9 +1,13 @@
 #include "report/assembly_gaps.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "core/median.hpp"
 #include "match/gap.hpp"
+#include "report/canvas.hpp"
+#include "report/colour_scale.hpp"
 
 namespace rejoin::report {
 namespace {
@@ -54,6 +58,18 @@ std::vector<std::vector<float>> assembly_gaps(const std::vector<PlacedSurface>& 
     }
   }
   return result;
+}
+
+double gap_scale(const std::vector<std::vector<float>>& gaps, double reach) {
+  constexpr double kFinest = 1e-3;  // of the reach: below that it is rounding, not shape
+  std::vector<float> sizes;
+  for (const std::vector<float>& of_surface : gaps) {
+    for (const float gap : of_surface)
+      if (!std::isnan(gap)) sizes.push_back(std::abs(gap));
+  }
+  if (sizes.empty()) return reach / 2;
+  const double typical = kMedianGaps * static_cast<double>(median(sizes));
+  return std::min(reach / 2, round_up(std::max(typical, kFinest * reach)));
 }
 
 }  // namespace rejoin::report

@@ -23,4 +23,10 @@ struct PlacedSurface {
 std::vector<std::vector<float>> assembly_gaps(const std::vector<PlacedSurface>& surfaces, double reach,
                                               const Context& context);
 
+/// The |gap| that the strongest colours stand for: kMedianGaps, rounded up.
+/// \param gaps   of all surfaces, as assembly_gaps() gives them
+/// \param reach  with which; the scale is half of that at most, and where there is no gap
+/// \return mesh units, > 0
+double gap_scale(const std::vector<std::vector<float>>& gaps, double reach);
+
 }  // namespace rejoin::report

@@ -9,6 +9,9 @@ namespace rejoin::report {
 
 inline constexpr Colour kNoContact{176, 178, 182};
 
+/// |gap| of the strongest colours, in medians of |gap|: nearly all of a joint is paler, and chips, however deep, leave the scale alone.
+inline constexpr double kMedianGaps = 4.0;
+
 /// Gap colours, readable by the colour-blind: -1 = deep red (the surfaces overlap), 0 = pale yellow (they
 /// touch), 1 = deep blue (they stand apart).  NaN gives grey: no contact.
 Colour gap_colour(double share);

@@ -6,6 +6,7 @@
 
 #include "mesh/surface.hpp"
 #include "report/canvas.hpp"
+#include "report/colour_scale.hpp"
 
 namespace rejoin::report {
 namespace {
@@ -88,7 +89,7 @@ Joint make_joint(const mesh::Mesh& a, const mesh::Mesh& b, const Rigid& pose, co
   }
   joint.contact = match::contact_of(joint.a, gaps_a);
   const double finest = std::max(1e-3 * joint.reach, 0.05 * resolution);
-  joint.scale = std::min(joint.reach, round_up(std::max(3 * joint.contact.gap_p90, finest)));
+  joint.scale = std::min(joint.reach, round_up(std::max(kMedianGaps * joint.contact.gap_median, finest)));
   const glm::dvec3 centre_a = joint.a.origin + mesh::centroid(joint.a);
   const glm::dvec3 centre_b = pose(joint.b.origin + mesh::centroid(joint.b));
   const glm::dvec3 fallback = unit_or(direction, unit_or(centre_b - centre_a, {0, 0, 1}));

@@ -14,11 +14,11 @@ namespace rejoin::report {
 struct Joint {
   mesh::Mesh a;  ///< at most kPictureFaces faces
   mesh::Mesh b;
-  Rigid pose;                  ///< B's file coordinates -> A's file coordinates
-  std::vector<float> gap_a;    ///< one a vertex of a; NaN where there is no contact
-  std::vector<float> gap_b;    ///< one a vertex of b
-  double reach = 0;            ///< gaps above this are "no contact", mesh units; a round number
-  double scale = 0;            ///< |gap| of the strongest colours, <= reach, mesh units; a round number
+  Rigid pose;                ///< B's file coordinates -> A's file coordinates
+  std::vector<float> gap_a;  ///< one a vertex of a; NaN where there is no contact
+  std::vector<float> gap_b;  ///< one a vertex of b
+  double reach = 0;          ///< gaps above this are "no contact", mesh units; a round number
+  double scale = 0;  ///< |gap| of the strongest colours (kMedianGaps), <= reach, mesh units; a round number
   match::Contact contact;      ///< of a, within reach; area 0 if the surfaces do not meet
   glm::dvec3 centre{0.0};      ///< of the contact; between the fragments if there is none
   glm::dvec3 normal{0, 0, 1};  ///< unit, from A to B

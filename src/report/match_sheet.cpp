@@ -77,6 +77,20 @@ void draw_gap_views(Image& sheet, const Joint& joint, const Area& area) {
   }
 }
 
+/// Share of the contact's vertices with the strongest colours, percent.
+double darkest(const Joint& joint) {
+  double beyond = 0;
+  double total = 0;
+  for (const auto* gaps : {&joint.gap_a, &joint.gap_b}) {
+    for (const float gap : *gaps) {
+      if (std::isnan(gap)) continue;
+      total += 1;
+      beyond += std::abs(gap) >= joint.scale ? 1 : 0;
+    }
+  }
+  return 100.0 * beyond / std::max(1.0, total);
+}
+
 /// Share of the contact's vertices in each of `count` equal classes from -scale to scale; larger gaps count
 /// in the last.
 std::vector<double> histogram(const Joint& joint, int count) {
@@ -116,7 +130,8 @@ void draw_gap_legend(Image& sheet, const Joint& joint, double gap_median, const 
   draw_text(sheet, area.x + 14, y + 42, "median |gap|  " + short_number(gap_median), {12, kInk});
   if (joint.reach > joint.scale) {
     draw_text(sheet, area.x + 14, y + 66,
-              "darkest: from " + short_number(joint.scale) + " to " + short_number(joint.reach), {12, kInk});
+              fmt::format("darkest: from {} ({:.0f} %)", short_number(joint.scale), darkest(joint)),
+              {12, kInk});
   }
 }
 

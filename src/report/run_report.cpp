@@ -90,7 +90,6 @@ std::size_t total_bytes(const std::vector<detail::PackedMesh>& meshes) {
 void pack_surfaces(detail::PageData& data, const RunReportOptions& options, const Context& context) {
   const std::vector<ReportFragment>& fragments = data.report->fragments;
   const double reach = kGapReach * median_diameter(fragments);
-  data.gap_scale = reach / 2;
   const double share =
       static_cast<double>(options.geometry_bytes) / std::max<std::size_t>(1, fragments.size());
   double faces = std::min(static_cast<double>(options.fragment_faces), share / kBytesPerFace);
@@ -99,6 +98,7 @@ void pack_surfaces(detail::PageData& data, const RunReportOptions& options, cons
     const std::vector<mesh::Mesh> meshes =
         simplified(fragments, static_cast<std::size_t>(std::max(64.0, faces)));
     const std::vector<std::vector<float>> gaps = gaps_of(fragments, meshes, reach, context);
+    data.gap_scale = gap_scale(gaps, reach);
     data.meshes.assign(fragments.size(), {});
     for (std::size_t k = 0; k < meshes.size(); ++k) {
       if (!meshes[k].faces.empty()) data.meshes[k] = detail::pack(meshes[k], gaps[k], data.gap_scale);

@@ -76,6 +76,22 @@ TEST(Joint, KeepsAKnownGapAndMarksWhatDoesNotTouch) {
   EXPECT_GE(joint.reach, joint.scale);
 }
 
+TEST(Joint, ChipsLeaveTheColoursOfTheRestAlone) {
+  Planted pair = planted_pair();
+  const Rigid pose = lifted(pair, 0.005);
+  const auto scale = [&] {
+    return make_joint(pair.a.surface, pair.b.surface, pose, glm::dvec3(0.0), 0.02).scale;
+  };
+  const double whole = scale();
+  const glm::vec3 up = glm::transpose(pose.rotation) * glm::dvec3(0, 0, 0.05);
+  for (glm::vec3& vertex : pair.b.surface.vertices) {
+    const glm::dvec3 at = pose(pair.b.surface.origin + glm::dvec3(vertex));
+    if (at.x > 0.5 && at.z < 0.2) vertex += up;  // a quarter of the broken face
+  }
+  EXPECT_EQ(scale(), whole);
+  EXPECT_LT(whole, 0.05);
+}
+
 TEST(Joint, WithoutContactLooksFromOneFragmentToTheOther) {
   const Planted pair = planted_pair(20);
   const Joint joint = make_joint(pair.a.surface, pair.b.surface, lifted(pair, 5), glm::dvec3(0.0), 0.02);

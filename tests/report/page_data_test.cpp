@@ -85,6 +85,15 @@ TEST(AssemblyGaps, AreThePlantedOnesAndStayWithinAnObject) {
   for (const float gap : apart[0]) EXPECT_TRUE(std::isnan(gap));
 }
 
+TEST(GapScale, ChipsLeaveItAlone) {
+  const float none = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(gap_scale({{0.1F, none, -0.1F}, {0.1F, -0.1F, 0.1F}}, 10), 0.5);  // 0.4 rounded up
+  EXPECT_EQ(gap_scale({{0.1F, none, -0.1F}, {0.1F, 9.0F, 9.0F}}, 10), 0.5);
+  EXPECT_EQ(gap_scale({{9.0F}, {}}, 10), 5) << "the half of the reach at most";
+  EXPECT_EQ(gap_scale({{none}, {}}, 10), 5);
+  EXPECT_GT(gap_scale({{0.0F}}, 10), 0);
+}
+
 TEST(ScoreTriangle, HoldsEveryPairOnceWhicheverComesFirst) {
   RunReport report;
   report.fragments.resize(4);

@@ -233,7 +233,7 @@ export class Assembly {
   #legend(mode, scale) {
     const bar = (colour, low, high, labels) => h('span', {class: 'scale'}, h('span', {class: 'bar', style: {background: gradient(colour, low, high)}}), h('span', {class: 'ends'}, labels.map((label) => h('span', {}, label))));
     if (mode === 'confidence') return bar(evenColour, 0, 1, ['0 %', 'confidence', '100 %']);
-    if (mode === 'gap') return [bar(gapColour, -1, 1, [`overlap ${short(scale)}`, 'touch', `apart ${short(scale)}`]), h('span', {class: 'grey'}, h('i', {class: 'swatch', style: {background: css(NONE)}}), 'no contact; in the scans\u2019 unit')];
+    if (mode === 'gap') return [bar(gapColour, -1, 1, [`overlap ${short(scale)}`, 'touch', `apart ${short(scale)}`]), h('span', {class: 'grey'}, h('i', {class: 'swatch', style: {background: css(NONE)}}), 'no contact; in the scans\u2019 unit, the darkest for larger ones too')];
     return [];
   }
 
