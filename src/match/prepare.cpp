@@ -21,6 +21,7 @@ constexpr std::size_t kCoarseFaces = 40000;
 /// Edges across a wall: with fewer, a break has hardly any shape to be known by (docs/results.md, coarse meshes of sherds).
 constexpr double kEdgesAcross = 3.5;
 constexpr double kNoisy = 0.1;        // of the points' spacing: what is left of less hides in the tolerance
+constexpr double kShapeless = 0.25;   // of the points' spacing: shape between them that is no noise
 constexpr double kFromOneSide = 0.5;  // share of a surface without anything behind it
 
 /// Of equilateral triangles as large as the surface's are on average.
@@ -36,6 +37,16 @@ void doubt_coarse_walls(Fragment& fragment) {
       fmt::format("{}: its mesh has {:.2f} edges across the wall ({:.3g} thick); joins are hardly sure with "
                   "fewer than {:.1f}: scan or export it more finely",
                   fragment.path, across, fragment.facets.wall_thickness, kEdgesAcross));
+}
+
+/// Where both sides of a wall are nearer to each other than points are, normals that are estimated mix them, and no wall is found to be
+/// coarse for.
+void doubt_shapeless_points(Fragment& fragment, bool noisy) {
+  if (noisy || fragment.noise < kShapeless * fragment.resolution) return;
+  fragment.warnings.push_back(fmt::format(
+      "{}: its points are too far apart ({:.3g}) for its shape, off which they lie by {:.3g}: its surfaces "
+      "are hardly told apart; scan or export it more finely, a cloud with normals",
+      fragment.path, fragment.resolution, fragment.noise));
 }
 
 /// Walls of a sherd that is taken for a solid piece lie on those of others as breaks do.
@@ -114,6 +125,7 @@ Fragment prepare(std::string path, mesh::Mesh scan, const Context& context) {
   fragment.facets = mesh::segment(matched, fragment.diameter);
   fragment.sample_of_face = mesh::sample_of_faces(fragment.facets, fragment.coarse);
   doubt_coarse_walls(fragment);
+  doubt_shapeless_points(fragment, noisy);
   doubt_scans_from_one_side(fragment);
   doubt_several_bodies(fragment);
   doubt_table(fragment);

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/json_values.hpp"
+#include "core/random.hpp"
 #include "mesh/load.hpp"
 #include "run_program.hpp"
 
@@ -66,6 +67,37 @@ INSTANTIATE_TEST_SUITE_P(Meshes, SampleTest,
                          [](const auto& info) {
                            return info.param.name + std::string(info.param.options.empty() ? "" : "_by_rims");
                          });
+
+/// Writes about one in so many of a scan's points, without normals.
+void write_thinned(const std::string& scan, double every, const std::string& cloud) {
+  const mesh::Mesh mesh = mesh::load(scan).mesh;
+  Random random(1);
+  std::string text;
+  for (const glm::vec3& vertex : mesh.vertices) {
+    if (random.uniform() * every >= 1) continue;
+    const glm::dvec3 p = mesh.origin + glm::dvec3(vertex);
+    for (const double number : {p.x, p.y, p.z}) text += std::to_string(number) + " ";
+    text += "\n";
+  }
+  write_file(cloud, text);
+}
+
+// Its wall is 6 thick: points 4 apart on both sides of it are mixed up, those 1.3 apart are not.
+TEST(Thinned, CloudWhoseSurfacesAreMisjudgedIsToldByFacetsAndMatch) {
+  const TemporaryFolder folder;
+  const std::string scan = REJOIN_SOURCE_DIR "/meshes/bowl/a.drc";
+  const std::string cloud = folder / "cloud.xyz";
+  write_thinned(scan, 3, cloud);
+  EXPECT_EQ(run({"facets", cloud}).err.find("too far apart"), std::string::npos);
+  write_thinned(scan, 27, cloud);
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"facets", cloud}, {"match", cloud, scan, "--near", folder / "near.txt"}}) {
+    write_file(folder / "near.txt", "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+    const Finished finished = run(command);
+    EXPECT_NE(finished.err.find("cloud.xyz: its points are too far apart"), std::string::npos)
+        << finished.err;
+  }
+}
 
 }  // namespace
 }  // namespace rejoin::cli::testing
