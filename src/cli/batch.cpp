@@ -74,6 +74,10 @@ class BatchCommand final : public Command {
     } else {
       console.result(text_of(summary, seconds));
     }
+    if (shard_ && summary.progress.total == 0) {
+      console.warning(
+          fmt::format("shard {} has no pairs: the folder has too few for so many shards", *shard_));
+    }
     return tell_end(console, summary);
   }
 

@@ -19,6 +19,16 @@
 namespace rejoin::cli {
 namespace {
 
+/// "shards 2/9, 5/9 are missing": as many as fit a line.
+std::string told_absent(const std::vector<std::string>& absent) {
+  constexpr std::size_t kMost = 10;
+  std::string text = absent.size() == 1 ? "shard " : "shards ";
+  for (std::size_t k = 0; k < absent.size() && k < kMost; ++k) text += (k > 0 ? ", " : "") + absent[k];
+  if (absent.size() > kMost) text += fmt::format(" and {} more", absent.size() - kMost);
+  return text + (absent.size() == 1 ? " is" : " are") +
+         " missing; merge again with all, or give this run to rejoin batch for the rest";
+}
+
 class MergeCommand final : public Command {
  public:
   void define(CLI::App& app) override {
@@ -41,6 +51,7 @@ class MergeCommand final : public Command {
     if (missing > 0) console.result(fmt::format(" ({} still to be done)", missing));
     console.result("\n");
     console.wrote(table);
+    if (missing > 0 && !merged.absent.empty()) console.warning(told_absent(merged.absent));
     if (merged.failed == 0) return kDone;
     console.warning(counted(merged.failed, "pair") + " failed; the table tells why");
     return kFailure;

@@ -3,7 +3,9 @@
 #include <SQLiteCpp/Backup.h>
 #include <fmt/format.h>
 
+#include <charconv>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -53,6 +55,7 @@ int told_by(FragmentState state) {
 struct Whole {
   Parameters parameters;
   std::map<std::string, Fragment> fragments;
+  std::vector<std::string> shards;  ///< of the runs, as Run::shard() tells them
 };
 
 /// One look at all runs, before anything is written.
@@ -60,6 +63,7 @@ Whole survey(const std::vector<fs::path>& runs) {
   Whole whole;
   for (const fs::path& folder : runs) {
     const Run run = Run::open(folder);
+    whole.shards.push_back(run.shard());
     if (&folder == &runs.front()) whole.parameters = run.parameters();
     if (run.parameters() != whole.parameters) {
       throw StoreError(folder.string(),
@@ -88,6 +92,27 @@ Whole survey(const std::vector<fs::path>& runs) {
     }
   }
   return whole;
+}
+
+/// As Merged tells it.
+std::vector<std::string> absent_shards(const std::vector<std::string>& shards) {
+  std::set<std::size_t> given;
+  std::size_t count = 0;
+  for (const std::string& shard : shards) {
+    std::size_t number = 0;
+    std::size_t of = 0;
+    const char* end = shard.data() + shard.size();
+    const auto first = std::from_chars(shard.data(), end, number);
+    if (first.ec != std::errc() || first.ptr == end ||
+        std::from_chars(first.ptr + 1, end, of).ec != std::errc() || (count != 0 && of != count))
+      return {};
+    count = of;
+    given.insert(number);
+  }
+  std::vector<std::string> absent;
+  for (std::size_t number = 1; number <= count; ++number)
+    if (given.count(number) == 0) absent.push_back(fmt::format("{}/{}", number, count));
+  return absent;
 }
 
 void require_each_once(const std::vector<fs::path>& runs) {
@@ -140,8 +165,10 @@ Merged count(SQLite::Database& database) {
   const auto number = [&database](const char* query) {
     return static_cast<std::size_t>(database.execAndGet(query).getInt64());
   };
-  return {number("SELECT count(*) FROM fragment"), number("SELECT count(*) FROM pair"),
-          number("SELECT count(*) FROM pair WHERE stage = 'failed'")};
+  return {number("SELECT count(*) FROM fragment"),
+          number("SELECT count(*) FROM pair"),
+          number("SELECT count(*) FROM pair WHERE stage = 'failed'"),
+          {}};
 }
 
 /// \return pairs of the output's own database, if it has one, that the whole would not have
@@ -211,7 +238,7 @@ Merged merge(const std::vector<fs::path>& runs, const fs::path& output) {
   const PartFolder part(output / "merge.part");
   make_fragments(part.path(), whole);
   const std::string path = (part.path() / kFileName).string();
-  const Merged merged = detail::guarded(path, [&] {
+  Merged merged = detail::guarded(path, [&] {
     SQLite::Database database(path, SQLite::OPEN_READWRITE | SQLite::OPEN_URI);
     database.exec("PRAGMA foreign_keys = ON");
     for (const fs::path& folder : runs) copy_pairs(database, folder);
@@ -220,6 +247,7 @@ Merged merge(const std::vector<fs::path>& runs, const fs::path& output) {
     return count(database);
   });
   put_in_place(path, output);
+  merged.absent = absent_shards(whole.shards);
   return merged;
 }
 

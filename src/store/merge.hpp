@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace rejoin::store {
@@ -11,6 +12,8 @@ struct Merged {
   std::size_t fragments = 0;  ///< in the whole, copies() included
   std::size_t pairs = 0;
   std::size_t failed = 0;  ///< of the pairs
+  /// "I/N" of shards that are not among the runs, ascending; none where the runs are not all shards of one N.
+  std::vector<std::string> absent;
 };
 
 /// Copies all fragments and pairs of the runs into one.  Pairs that several have are taken once, a result before a

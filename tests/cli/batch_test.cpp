@@ -203,6 +203,11 @@ TEST_F(Batch, ShardsMergedAreTheWhole) {
     ++surfaces;
   }
   EXPECT_EQ(surfaces, 3);
+  const Finished partly = run({"merge", merge[3], merge[5], "--out", folder_ / "partly"});
+  EXPECT_EQ(partly.exit_code, 0);
+  EXPECT_NE(partly.err.find("shard 2/3 is missing"), std::string::npos) << partly.err;
+  const Finished none = run({"batch", scans(), "--out", folder_ / "none", "--shard", "9/9"});
+  EXPECT_NE(none.err.find("shard 9/9 has no pairs"), std::string::npos) << none.err;
   EXPECT_EQ(run({"batch", scans(), "--out", folder_ / "1", "--shard", "2/3"}).exit_code, 1)
       << "holds shard 1/3";
 }
