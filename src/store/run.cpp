@@ -88,12 +88,13 @@ bool has_results(SQLite::Database& database) {
 void require_some_known(SQLite::Database& database, const std::map<std::string, Fragment>& wanted,
                         const std::string& shard, const std::string& path) {
   const std::vector<Fragment> known = detail::all_fragments(database);
+  std::string first_named;
   std::size_t named = 0;
   std::size_t same = 0;
   for (const Fragment& fragment : known) {
     const auto found = wanted.find(fragment.name);
     if (found == wanted.end()) continue;
-    ++named;
+    if (named++ == 0) first_named = fragment.name;
     same += found->second.hash == fragment.hash ? 1 : 0;
   }
   if (named == 0 && shard.empty() && has_pairs(database)) {
@@ -102,10 +103,9 @@ void require_some_known(SQLite::Database& database, const std::map<std::string, 
                      "give the folder of those scans, or another --out");
   }
   if (named > 0 && same == 0 && has_results(database)) {
-    throw StoreError(path,
-                     fmt::format("is of other scans of the same names: {} and {} more", known.front().name,
-                                 known.size() - 1),
-                     "give another --out, or remove this file if all scans were made anew");
+    throw StoreError(
+        path, fmt::format("is of other scans of the same names: {} and {} more", first_named, named - 1),
+        "give another --out, or remove this file if all scans were made anew");
   }
 }
 

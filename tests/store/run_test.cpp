@@ -221,6 +221,18 @@ TEST_F(RunTest, OtherContentsUnderTheSameNamesAreRefusedSoThatNoPairIsLost) {
   EXPECT_NO_THROW(run.begin(kParameters, others)) << "there is nothing to lose";
 }
 
+TEST_F(RunTest, RefusalNamesAScanOfTheSameName) {
+  make_run();
+  store::Run run = store::Run::write(folder_);
+  try {
+    run.begin(kParameters, {fragment("b.ply", "55"), fragment("y.ply", "44")});
+    FAIL();
+  } catch (const StoreError& error) {
+    EXPECT_NE(std::string(error.what()).find("same names: b.ply and 0 more"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST_F(RunTest, ScansThatWereAllUnreadableMayAllChange) {
   make_run();
   store::Run run = store::Run::write(folder_);
