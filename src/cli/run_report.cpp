@@ -32,6 +32,9 @@ constexpr std::size_t kLeastFaces = 4'000;
 /// Numbers of the fragments by name.
 using Numbers = std::map<std::string, std::size_t>;
 
+constexpr const char* kGapFigure = "median gap";
+constexpr const char* kContactFigure = "contact area";
+
 constexpr const char* kMend = "make it again with rejoin assemble";
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& problem) {
@@ -126,6 +129,7 @@ class AssemblyReader {
     const auto known = std::find_if(report_.pairs.begin(), report_.pairs.end(), same);
     if (known != report_.pairs.end()) {
       known->used = true;
+      show_used_pose(*known, join);
       return;
     }
     report::ReportPair pair;
@@ -135,7 +139,33 @@ class AssemblyReader {
     pair.verdict = "touch";
     pair.comparison = report::Comparison::Touches;
     pair.used = true;
+    pair.figures = figures_of(join);
     report_.pairs.push_back(std::move(pair));
+  }
+
+  /// What the assembly measured of a join; nothing of what it does not have.
+  static std::vector<report::ReportFigure> figures_of(const ordered_json& join) {
+    std::vector<report::ReportFigure> list;
+    for (const auto& [key, name] :
+         {std::pair("gap_median", kGapFigure), std::pair("contact", kContactFigure)})
+      if (join.contains(key) && join[key].is_number()) list.push_back({name, join[key].get<double>()});
+    return list;
+  }
+
+  /// The score and the figures of the joint that the assembly stands on, where that is not the best pose of the pair's own search.
+  static void show_used_pose(report::ReportPair& pair, const ordered_json& join) {
+    const double score = join.value("score", pair.score);
+    const bool found = join.value("found_by", "match") == "contact";
+    if (pair.comparison == report::Comparison::Failed || (!found && score == pair.score)) return;
+    pair.note = fmt::format(
+        "{} The best pose of that search: {}, score {:.2f}.",
+        found ? "Found by contact: the two touch where other joins put them; the pair's own "
+                "search missed this pose."
+              : "Shown is the pose of the assembly, which is not the best of the pair's own search.",
+        pair.verdict, pair.score);
+    if (found) pair.verdict = "found by contact";
+    pair.score = score;
+    pair.figures = figures_of(join);
   }
 
   /// What the user asked for, also among the parameters, and what could not be kept of it.
@@ -248,9 +278,9 @@ std::vector<report::ReportFigure> figures(const store::Pair& pair,
   std::vector<report::ReportFigure> list;
   if (!candidates.empty()) {
     const store::Candidate& best = candidates.front();
-    list = {{"median gap", best.gap_median},
+    list = {{kGapFigure, best.gap_median},
             {"penetration", best.penetration},
-            {"contact area", best.contact_area},
+            {kContactFigure, best.contact_area},
             {"slope difference, whole fragments", best.slope},
             {"the same, ray cast", best.raycast},
             {"depth error, whole fragments", best.depth},

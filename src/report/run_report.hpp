@@ -51,15 +51,18 @@ enum class Comparison {
 
 /// Two fragments that were compared, or touch.
 struct ReportPair {
-  std::size_t a = 0;          ///< index of the fragment
-  std::size_t b = 0;          ///< index of the other; != a
-  double score = 0;           ///< 0 .. 1
-  std::string verdict;        ///< "join", "unsure", "no join", or what kept it from being compared
+  std::size_t a = 0;  ///< index of the fragment
+  std::size_t b = 0;  ///< index of the other; != a
+  double score = 0;   ///< 0 .. 1; of the joint that the assembly stands on, if it does
+  std::string
+      verdict;  ///< "join", "unsure", "no join", "found by contact", or what kept it from being compared
   bool used = false;          ///< the assembly stands on this joint
   std::optional<Rigid> pose;  ///< B's file coordinates -> A's
   std::vector<ReportFigure> figures;
   std::vector<ReportPicture> pictures = {};  ///< filled by write_run_report() for the best pairs where empty
   Comparison comparison = Comparison::Done;
+  std::string note =
+      {};  ///< where the assembly has the two at another pose than their own search: a sentence on that
 };
 
 /// What the user asked the assembly for, as indices of fragments.

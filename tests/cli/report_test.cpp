@@ -84,6 +84,42 @@ TEST(Report, ShowsWhatTheAssemblyPlacedAndWhyNotTheRest) {
   EXPECT_GE(data["pairs"][0]["pictures"].size(), 4U);
 }
 
+TEST(Report, ShowsAJoinFoundByContactAsTheAssemblyHasIt) {
+  const PlantedRun run;
+  const json one = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
+  const json moved = {{1, 0, 0, 0.1}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
+  json join = {{"a", "a.ply"},   {"b", "b.ply"},         {"score", 0.998},
+               {"contact", 2.5}, {"gap_median", 0.0625}, {"found_by", "contact"}};
+  json assembly = {{"schema", "rejoin.assembly/1"},
+                   {"fragments",
+                    {{"a.ply", {{"pose", one}, {"group", 0}, {"confidence", 0.5}}},
+                     {"b.ply", {{"pose", moved}, {"group", 0}, {"confidence", 0.25}}},
+                     {"gone.ply", {{"pose", nullptr}, {"group", -1}}}}},
+                   {"joins", {join}}};
+  const auto pair_shown = [&] {
+    run.assemble(assembly.dump());
+    const Finished finished = testing::run({"report", run.folder, "--pictures", "1"});
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    return data_of(read_file(run.page))["pairs"].at(0);
+  };
+  const json shown = pair_shown();
+  EXPECT_EQ(shown["score"], 0.998);
+  EXPECT_EQ(shown["verdict"], "found by contact");
+  EXPECT_EQ(shown["figures"], json::parse(R"([["median gap", 0.0625], ["contact area", 2.5]])"));
+  EXPECT_NE(shown["note"].get<std::string>().find("The best pose of that search: join, score 0.75"),
+            std::string::npos)
+      << shown["note"];
+  EXPECT_GE(shown["pictures"].size(), 4U);
+  // Where the search's own best pose is used, it says all that is known of it.
+  assembly["joins"][0]["found_by"] = "match";
+  assembly["joins"][0]["score"] = 0.75;
+  const json own = pair_shown();
+  EXPECT_EQ(own["note"], "");
+  EXPECT_EQ(own["verdict"], "join");
+  EXPECT_EQ(own["figures"][0], json({"median gap", 0.125}));
+  EXPECT_EQ(own["pictures"], shown["pictures"]) << "drawn at the assembly's pose either way";
+}
+
 TEST(Report, CountsAPairThatFailedAsFailedAndGivesItNoScore) {
   const PlantedRun run;
   {

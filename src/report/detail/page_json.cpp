@@ -73,6 +73,7 @@ ordered_json pair_json(const ReportPair& pair, const std::vector<ReportPicture>&
           {"verdict", pair.verdict},
           {"failed", pair.comparison == Comparison::Failed},
           {"used", pair.used},
+          {"note", pair.note},
           {"figures", figures},
           {"pictures", pictures_json(pictures)}};
 }

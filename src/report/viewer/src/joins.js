@@ -81,6 +81,7 @@ export class Joins {
       {class: 'join', id: `join-${rank}`, tabindex: -1},
       h('header', {}, h('span', {class: 'rank'}, `${rank + 1}`), h('h3', {}, nameElement(a.name, {limit: 48}), h('span', {class: 'and'}, ' \u2013 '), nameElement(b.name, {limit: 48})), h('span', {class: `verdict ${VERDICTS[pair.verdict] ?? ''}`}, pair.verdict), pair.used && h('span', {class: 'verdict used'}, 'in the assembly')),
       h('div', {class: 'score'}, !pair.failed && h('meter', {min: 0, max: 1, value: pair.score, 'aria-label': 'score'}), !pair.failed && h('span', {}, `score ${pair.score.toFixed(2)}`), (a.mesh || b.mesh) && h('button', {type: 'button', onclick: () => this.show([pair.a, pair.b])}, 'Show both in 3D'), !pair.failed && this.decisions.buttons(pair)),
+      pair.note && h('p', {class: 'note'}, pair.note),
       pair.pictures.length > 0 && h('div', {class: 'pictures'}, pair.pictures.map((picture) => this.#picture(pair, picture))),
       pair.figures.length > 0 && h('dl', {class: 'figures'}, pair.figures.map(([name, value]) => h('div', {}, h('dt', {}, name), h('dd', {}, short(value))))),
     );
