@@ -54,6 +54,18 @@ test('hostile names do nothing and are shown as text', () =>
     assert.ok(wide <= 0, `the page is ${wide} pixels too wide`);
   }));
 
+test('names in the list are whole as far as they are written, and the ends of the gap scale stand apart', () =>
+  on('hostile', async (page) => {
+    const cut = await page.locator('.pick .name').evaluateAll((names) => names.filter((name) => name.scrollWidth > name.clientWidth && getComputedStyle(name).overflow === 'hidden').length);
+    assert.equal(cut, 0, 'their ends tell scans apart');
+    await page.selectOption('#colour', 'gap');
+    const gaps = await page.locator('.legend .ends').first().evaluate((ends) => {
+      const labels = ['overlap 0.00849', 'touch', 'apart 0.00849'];
+      return [...ends.children].map((label, k) => ((label.textContent = labels[k]), label)).map((label) => label.getBoundingClientRect()).slice(0, 2).map((box, k) => ends.children[k + 1].getBoundingClientRect().left - box.right);
+    });
+    assert.ok(Math.min(...gaps) >= 12, `${gaps} pixels between the labels`);
+  }));
+
 test('the viewer draws the placed fragments, and loose ones on demand', () =>
   on('hostile', async (page) => {
     const placed = await look(page);
