@@ -47,7 +47,7 @@ class CompareCommand final : public Command {
     require_two_files(path_a_, path_b_);
     if (out_) require_writable_folder(*out_);  // first, for --json may lie in it
     if (json_) require_writable_file(*json_);
-    const Rigid pose = read_pose(pose_);
+    const Rigid pose = read_pose(pose_, path_a_, path_b_);
     match::Fragment a = load_fragment(path_a_, console, context);
     match::Fragment b = load_fragment(path_b_, console, context);
     use_painted_facets(painted_, {&a, &b}, console);

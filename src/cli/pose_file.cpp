@@ -2,8 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <filesystem>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "cli/json_values.hpp"
 #include "core/error.hpp"
@@ -45,7 +47,24 @@ ordered_json rows_of_numbers(const std::string& text) {
   return whole ? rows : ordered_json(ordered_json::value_t::discarded);
 }
 
-Rigid read_pose(const std::string& path) {
+namespace {
+
+std::string file_name(const std::string& path) {
+  return std::filesystem::path(path).filename().string();
+}
+
+/// Whether a match's JSON tells of A as B and of B as A.
+bool is_of_swapped(const ordered_json& json, const std::string& path_a, const std::string& path_b) {
+  const auto names = [&](const char* piece, const std::string& path) {
+    const ordered_json told = json.is_object() ? json.value(piece, ordered_json()) : ordered_json();
+    const ordered_json of = told.is_object() ? told.value("path", ordered_json()) : ordered_json();
+    return of.is_string() && file_name(of.get<std::string>()) == file_name(path);
+  };
+  return names("a", path_b) && names("b", path_a) && !names("a", path_a);
+}
+
+/// The file's pose, and its JSON.
+std::pair<Rigid, ordered_json> pose_and_json(const std::string& path) {
   const std::string text = read_json_text(path, kMend);
   ordered_json json = ordered_json::parse(text, nullptr, false);
   if (json.is_discarded()) json = rows_of_numbers(text);
@@ -54,7 +73,18 @@ Rigid read_pose(const std::string& path) {
   const ordered_json& rows = json.is_object() && json.contains("pose") ? json["pose"] : json;
   const std::optional<Rigid> pose = rigid_from_json(rows);
   if (!pose) throw InputError(path, fmt::format("\"pose\" {}", kNoRigid), kMend);
-  return *pose;
+  return {*pose, std::move(json)};
+}
+
+}  // namespace
+
+Rigid read_pose(const std::string& path) {
+  return pose_and_json(path).first;
+}
+
+Rigid read_pose(const std::string& path, const std::string& path_a, const std::string& path_b) {
+  const auto [pose, json] = pose_and_json(path);
+  return is_of_swapped(json, path_a, path_b) ? inverse(pose) : pose;
 }
 
 }  // namespace rejoin::cli

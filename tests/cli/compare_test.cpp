@@ -63,6 +63,10 @@ TEST_F(CompareCommand, TellsWhatMatchTellsOfItsPoseAndLeavesARoughOneWhereItIs) 
     EXPECT_NEAR(found[figure].get<double>(), told, 1e-3 * told) << figure;
   }
   EXPECT_GE(found["score"].get<double>(), match["score"].get<double>() - 1e-9);
+  // The pose of a match of A and B tells that of B and A as well.
+  ASSERT_EQ(run({"compare", b, a, "--pose", folder / "match.json", "--json", json, "--steps", "0"}).exit_code,
+            0);
+  EXPECT_GT(ordered_json::parse(read_file(json))["joint"]["score"].get<double>(), 0.99);
 
   ordered_json lifted = match["pose"];
   for (int row = 0; row < 3; ++row)
