@@ -3,7 +3,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <string>
 
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
@@ -20,20 +22,24 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::string file_name(std::size_t number) {
-  return fmt::format("fragment_{:02}.ply", number);
+/// All as wide as the last of `count`, so that lists by name are in order.
+std::string file_name(std::size_t number, std::size_t count) {
+  const std::size_t width = std::max<std::size_t>(2, std::to_string(count - 1).size());
+  return fmt::format("fragment_{:0{}}.ply", number, width);
 }
 
 ordered_json truth_json(const std::string& solid, const shatter::Options& options,
                         const shatter::Shattered& shattered) {
   ordered_json fragments = ordered_json::object();
-  for (std::size_t k = 0; k < shattered.pieces.size(); ++k) {
+  const std::size_t count = shattered.pieces.size();
+  for (std::size_t k = 0; k < count; ++k) {
     const shatter::Piece& piece = shattered.pieces[k];
-    fragments[file_name(k)] = {{"faces", piece.scan.faces.size()}, {"to_world", to_json(piece.to_world)}};
+    fragments[file_name(k, count)] = {{"faces", piece.scan.faces.size()},
+                                      {"to_world", to_json(piece.to_world)}};
   }
   ordered_json joins = ordered_json::array();
   for (const shatter::Contact& contact : shattered.contacts) {
-    joins.push_back({file_name(contact.a), file_name(contact.b), contact.area});
+    joins.push_back({file_name(contact.a, count), file_name(contact.b, count), contact.area});
   }
   return {{"solid", std::filesystem::path(solid).filename().string()},
           {"unit", "as in the file"},
@@ -87,7 +93,7 @@ class ShatterCommand final : public Command {
     }
     const std::filesystem::path folder(out_);
     for (std::size_t k = 0; k < shattered.pieces.size(); ++k) {
-      mesh::save(folder / file_name(k), shattered.pieces[k].scan);
+      mesh::save(folder / file_name(k, shattered.pieces.size()), shattered.pieces[k].scan);
     }
     const std::string truth = (folder / "truth.json").string();
     write_file(truth, text_of(truth_json(path_, options_, shattered)));
