@@ -5,6 +5,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -219,6 +220,7 @@ int with_results_written(int code) {
 int main(int argc, char** argv) {
   using namespace rejoin::cli;
   outlive_reader();
+  std::signal(SIGXFSZ, SIG_IGN);  // what is larger than `ulimit -f` cannot be written, as on a full disk
   try {
     return with_results_written(run_program(argc, argv));
   } catch (const rejoin::Error& error) {

@@ -1,6 +1,9 @@
 /// Outputs that would take what is there already, and places that are made for them.
 #include <gtest/gtest.h>
 
+#include <sys/wait.h>
+
+#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -95,6 +98,31 @@ TEST_F(Outputs, AssembleReplacesModelsOfAnAssemblyAlone) {
   const Finished again = run({"assemble", folder / "", "--out", folder / ""});
   EXPECT_EQ(again.exit_code, 0) << again.err;
   EXPECT_NE(read_file(scan), "precious");
+}
+
+TEST_F(Outputs, WhatIsLargerThanTheUserMayWriteIsToldAndLeavesNothing) {
+  const std::string colours = folder / "colours.ply";
+  const std::string command =
+      "ulimit -f 1; exec " REJOIN_PROGRAM " facets " + a + " --quiet --ply " + colours + " 2>&1";
+  FILE* program = popen(command.c_str(), "r");
+  ASSERT_NE(program, nullptr);
+  std::string told;
+  for (int c = fgetc(program); c != EOF; c = fgetc(program)) told += static_cast<char>(c);
+  const int status = pclose(program);
+  ASSERT_TRUE(WIFEXITED(status)) << "ended by a signal";
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+  EXPECT_NE(told.find(colours), std::string::npos) << told;
+  for (const auto& file : fs::directory_iterator(folder / "."))
+    EXPECT_EQ(file.path().filename().string().find("colours"), std::string::npos) << file.path();
+}
+
+TEST_F(Outputs, FragmentsAreInOrderByName) {
+  const std::string pieces = folder / "pieces";
+  ASSERT_EQ(run({"shatter", a, "--pieces", "101", "--spacing", "5", "--out", pieces, "--quiet"}).exit_code,
+            0);
+  EXPECT_TRUE(fs::exists(pieces + "/fragment_000.ply"));
+  EXPECT_TRUE(fs::exists(pieces + "/fragment_100.ply"));
+  EXPECT_NE(read_file(pieces + "/truth.json").find("fragment_007.ply"), std::string::npos);
 }
 
 }  // namespace
