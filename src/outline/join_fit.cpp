@@ -36,7 +36,7 @@ constexpr double kMostSamples = 3000.0;
 constexpr double kStepInEdges = 1.4;
 constexpr double kSameAngle = 5.0 * M_PI / 180.0;
 /// See score_of().
-constexpr double kEvenEvidence = 20.0;
+constexpr double kEvenEvidence = 17.0;
 constexpr double kEvidenceScale = 3.0;
 
 /// The place on a closed border.

@@ -60,7 +60,7 @@ class JoinFitter {
   /// Pose by least squares on the pairs, then by robust closest points along the boundary, which may stand a constant
   /// gap apart (worn edges); the boundary grows as far as the borders stay together.
   /// The score weighs how well the two borders' turning agrees along the boundary, scale by scale: -n/2 log(1 - r^2) for
-  /// a correlation r of n samples.  So straight on straight says nothing, and what wear has taken from the fine scales is
+  /// a correlation r of n samples, but no more than the samples say that the borders' own smoothness leaves independent.  So straight on straight says nothing, and what wear has taken from the fine scales is
   /// not missed at the coarse ones.  Overlap beyond the boundary's tolerance speaks against, and so does a distance between the
   /// two borders that varies along the boundary.
   /// \param a, b   positions in borders()

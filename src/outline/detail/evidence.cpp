@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "outline/detail/independence.hpp"
 
 namespace rejoin::outline::detail {
 namespace {
@@ -65,14 +68,24 @@ double turning_at(const ScaleSignal& signal, double sample, double limit) {
   return std::clamp(value, -limit, limit);
 }
 
-double agreement_at(const ScaledBorder& a, const ScaledBorder& b, const std::vector<Contact>& contacts,
-                    std::size_t k) {
+/// What one scale says.
+struct Level {
+  double told = 0.0;  ///< by each sample, natural logarithm
+  double samples =
+      0.0;  ///< that carry the turning, less what neighbours and other scales of a rough border share
+  double independent = 0.0;  ///< of those that carry it, by the borders' own smoothness
+};
+
+Level level_at(const ScaledBorder& a, const ScaledBorder& b, const std::vector<Contact>& contacts,
+               std::size_t k) {
   const ScaleSignal& signal_a = (*a.scales)[k];
   const Border here_a{&signal_a, a.border.perimeter};
   const Border here_b{&(*b.scales)[k], b.border.perimeter};
   const double begin = sample_of(here_a, place_of(a.border, contacts.front().i));
   const double end = sample_of(here_a, place_of(a.border, contacts.back().i));
   Sums sums;
+  std::vector<double> turning_a;
+  std::vector<double> turning_b;
   const double limit = (*a.limits)[k];
   const auto first = static_cast<long>(std::ceil(begin + kBlurred));
   const auto last = static_cast<long>(std::floor(end - kBlurred));
@@ -83,20 +96,44 @@ double agreement_at(const ScaledBorder& a, const ScaledBorder& b, const std::vec
     const double share = std::clamp(at - static_cast<double>(low), 0.0, 1.0);
     const double j = contacts[low].j + share * (contacts[low + 1].j - contacts[low].j);
     const double on_b = sample_of(here_b, place_of(b.border, j));
-    sums.add(turning_at(signal_a, i, limit), -turning_at(*here_b.signal, on_b, limit));
+    turning_a.push_back(turning_at(signal_a, i, limit));
+    turning_b.push_back(-turning_at(*here_b.signal, on_b, limit));
+    sums.add(turning_a.back(), turning_b.back());
   }
-  if (sums.count < kLeastSamples || sums.least_size() < std::ldexp(kRaster, -static_cast<int>(k))) return 0.0;
+  if (sums.count < kLeastSamples || sums.least_size() < std::ldexp(kRaster, -static_cast<int>(k))) return {};
   const double r = std::clamp(sums.correlation(), 0.0, 0.999);
-  return -0.5 * kIndependent * sums.carrying() * std::log(1.0 - r * r);
+  const double carrying = sums.carrying();
+  return {-0.5 * std::log(1.0 - r * r), kIndependent * carrying,
+          carrying / sums.count * independent_samples(turning_a, turning_b)};
+}
+
+/// The most that the borders' independent samples tell together: a scale has those of the coarser ones too, so each counts once, by the
+/// scale that agrees best of those that have it.
+double most_told(std::vector<Level> levels) {
+  std::stable_sort(levels.begin(), levels.end(),
+                   [](const Level& x, const Level& y) { return x.independent > y.independent; });
+  levels.emplace_back();
+  double sum = 0.0;
+  double told = 0.0;
+  for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
+    told = std::max(told, levels[k].told);
+    sum += told * (levels[k].independent - levels[k + 1].independent);
+  }
+  return sum;
 }
 
 }  // namespace
 
 double agreement(const ScaledBorder& a, const ScaledBorder& b, const std::vector<Contact>& contacts) {
+  if (contacts.size() < 2) return 0.0;
+  std::vector<Level> levels;
+  levels.reserve(a.scales->size());
   double sum = 0.0;
-  if (contacts.size() < 2) return sum;
-  for (std::size_t k = 0; k < a.scales->size(); ++k) sum += agreement_at(a, b, contacts, k);
-  return sum;
+  for (std::size_t k = 0; k < a.scales->size(); ++k) {
+    levels.push_back(level_at(a, b, contacts, k));
+    sum += levels.back().told * levels.back().samples;
+  }
+  return std::min(sum, most_told(std::move(levels)));
 }
 
 }  // namespace rejoin::outline::detail

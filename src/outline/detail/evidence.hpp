@@ -17,8 +17,9 @@ struct ScaledBorder {
 };
 
 /// Sum over the scales of -n/2 log(1 - r^2), with r the correlation of the two borders' turning along the boundary (B's
-/// backward, sign changed) and n its number of independent samples (a bend between straight lines is not as many as it
-/// has samples).  In natural logarithms; about 1 by chance.
+/// backward, sign changed) and n its number of samples (a bend between straight lines is not as many as it has samples), by
+/// what a rough border's tell anew.  No more than the borders' independent samples tell, by independent_samples() and each once: smooth
+/// borders show one shape at all scales.  In natural logarithms; about 1 by chance.
 double agreement(const ScaledBorder& a, const ScaledBorder& b, const std::vector<Contact>& contacts);
 
 }  // namespace rejoin::outline::detail
