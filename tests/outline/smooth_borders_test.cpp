@@ -58,6 +58,10 @@ TEST(SmoothBorders, StrangersAreNoJoinByMultiscale) {
   EXPECT_EQ(called_joins(*make_multiscale(options)), 0);
 }
 
+TEST(SmoothBorders, StrangersAreNoJoinByLcs) {
+  EXPECT_EQ(called_joins(*make_lcs()), 0);
+}
+
 TEST(SmoothBorders, TwoSidesOfASmoothBreakAreAJoin) {
   std::vector<glm::dvec2> line;  // 20 waves and less of 30 units and more
   Random random(8);

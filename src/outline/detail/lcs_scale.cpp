@@ -5,15 +5,17 @@
 
 #include "core/parallel.hpp"
 #include "outline/common_subsequence.hpp"
+#include "outline/detail/independence.hpp"
 #include "outline/detail/local_alignment.hpp"
 
 namespace rejoin::outline::detail {
 namespace {
 
-constexpr int kRounds = 4;              // of seam and fit
-constexpr double kReach = 8.0;          // samples: tolerance of the first seam
-constexpr double kLeastSeam = 1.0;      // windows
-constexpr double kEvenEvidence = 12.0;  // a score of one half
+constexpr int kRounds = 4;                    // of seam and fit
+constexpr double kReach = 8.0;                // samples: tolerance of the first seam
+constexpr double kLeastSeam = 1.0;            // windows
+constexpr double kIndependentInWindow = 3.0;  // samples that noise leaves independent in a window, at most
+constexpr double kEvenEvidence = 12.0;        // a score of one half
 constexpr double kEvidenceScale = 3.0;
 
 /// The sample nearest to a place on a border.
@@ -180,17 +182,24 @@ std::optional<LcsFit> LcsScale::judged(const Prepared& a, const Prepared& b, con
   return result;
 }
 
-/// How much likelier the two borders' turning along the seam is if they were one line, natural logarithm; neighbours in a
-/// window tell the same, so it is divided by a third of the window.
+/// How much likelier the two borders' turning along the seam is if they were one line, natural logarithm, for as many samples as
+/// are independent: neighbours in a window tell the same, and so do those of a bend that is wider.
 double LcsScale::agreement(const Prepared& a, const Prepared& b, const Seam& seam, bool flipped) const {
   double sum = 0.0;
   const std::size_t m = b.turns.points.size();
+  std::vector<double> turns_a;
+  std::vector<double> turns_b;
   for (const auto& [i, j] : seam.pairs) {
     // B runs the other way, so its change at j lies between j - 1 and j there; upside down it runs along, mirrored.
     const float turn_b = -b.turns.change_deg[flipped ? j : (j + m - 1) % m];
+    turns_a.push_back(a.turns.change_deg[i]);
+    turns_b.push_back(turn_b);
     sum += model_.score(TurnModel::level(a.turns.change_deg[i]), TurnModel::level(turn_b));
   }
-  return 3.0 * sum / (TurnModel::kUnit * options_.window);
+  const double independent =
+      std::min(kIndependentInWindow / options_.window * static_cast<double>(seam.pairs.size()),
+               independent_samples(turns_a, turns_b));
+  return independent / static_cast<double>(seam.pairs.size()) * sum / TurnModel::kUnit;
 }
 
 }  // namespace rejoin::outline::detail
