@@ -37,7 +37,8 @@ struct SweepResult {
   long evaluations = 0;        ///< poses (turn and shift) whose agreement was computed
 };
 
-/// Correlates all pairs of facets of the same cut.  Deterministic for any number of threads.
+/// Correlates all pairs of facets of the same cut, and quarters of large facets of the second one.  Deterministic for any
+/// number of threads.
 SweepResult sweep(const Fragment& a, const Fragment& b, const SweepOptions& options, const Context& context);
 
 }  // namespace rejoin::match
