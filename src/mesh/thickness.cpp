@@ -13,12 +13,11 @@ namespace {
 constexpr float kSquare = 0.8F;  // rays that leave within 37 degrees of the normal count for the thickness
 constexpr double kBinsPerOctave = 12.0;  // 6 % wide bins: finer than the walls of a thrown pot vary
 constexpr double kThinnest = 1.0 / 4096.0;
-constexpr double kMostOfSize = 0.12;  // of a thin piece
-constexpr double kMostOfSherd = 0.2;  // of one whose walls run parallel nearly everywhere
-constexpr float kParallel = 0.95F;    // within 18 degrees
-constexpr double kLeastParallel =
-    0.2;                          // of a thin piece's surface: two cracks of a solid run parallel by chance
-constexpr double kEvenLow = 0.8;  // of the thickness
+constexpr double kMostOfSize = 0.12;    // of a thin piece
+constexpr double kMostOfSherd = 0.2;    // of one whose walls run parallel nearly everywhere
+constexpr float kParallel = 0.95F;      // within 18 degrees
+constexpr double kLeastParallel = 0.2;  // of a thin piece's surface: cracks of a solid lean on each other
+constexpr double kEvenLow = 0.8;        // of the thickness
 constexpr double kEvenHigh = 1.25;
 
 }  // namespace
