@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <mutex>
+#include <utility>
 
 #include "core/parallel.hpp"
 #include "match/cuts.hpp"
@@ -25,8 +26,7 @@ constexpr double kWorthALook = 1.3;  // and at least: looks with hardly larger p
 constexpr double kTurnsKept = 0.15;  // share of a first look's turns that get a second
 constexpr std::size_t kLeastTurns = 3;
 constexpr double kSlack = 0.25;  // of a step of the second look, by which its turns may lie further apart
-constexpr int kPeaks = 6;        // kept a turn,
-constexpr int kPeaksNear = 200;  // and where all but those near a rough pose are dropped
+constexpr int kPeaksNear = 200;  // a turn, where all but those near a rough pose are dropped
 constexpr double kWorn = 0.18;   // wall thicknesses from a wall, where a break is taken for worn,
 constexpr double kLeastUnworn = 0.3;  // unless less than that of a facet lies farther
 constexpr double kSmallFacet = 0.02;  // of the largest facet's area: too small to tell
@@ -128,14 +128,6 @@ struct Task {
   float outline_weight;
 };
 
-/// \param peaks  a turn
-CorrelateOptions correlate_options(const Task& task, int peaks) {
-  CorrelateOptions options;
-  options.outline_weight = task.outline_weight;
-  options.most_peaks = peaks;
-  return options;
-}
-
 double turn_step(const FacetPatch& a, const FacetPatch& b, double pitch, double step_px) {
   return std::clamp(2.0 * step_px * pitch / std::min(a.length, b.length), 0.02, 0.25);
 }
@@ -160,7 +152,7 @@ std::vector<double> best_turns(const Task& task, double pitch, const std::vector
   const FacetPatch& b = task.b->patch;
   const std::vector<double> turns = turns_near(near, a, b, all_around);
   const std::vector<ReliefMap> maps = turned_maps(b, pitch, turns, context);
-  Correlator correlator(relief_of(a, pitch), correlate_options(task, 1));
+  Correlator correlator(relief_of(a, pitch), {.outline_weight = task.outline_weight, .most_peaks = 1});
   std::vector<std::pair<float, std::size_t>> ranked;
   for (const std::size_t t : correlator.cheapest_order(maps)) {
     if (context.cancelled()) break;
@@ -204,7 +196,9 @@ SweepResult correlate_patches(const Task& task, double resolution, const SweepOp
 
   const ReliefMap map_a = relief_of(a, pitch);
   const std::vector<ReliefMap> maps_b = turned_maps(b, pitch, turns, context);
-  Correlator correlator(map_a, correlate_options(task, options.near ? kPeaksNear : kPeaks));
+  CorrelateOptions peaks{.outline_weight = task.outline_weight};
+  if (options.near) peaks.most_peaks = kPeaksNear;
+  Correlator correlator(map_a, peaks);
   for (const std::size_t t : correlator.cheapest_order(maps_b)) {
     if (context.cancelled()) break;
     for (const Agreement& peak : correlator.peaks(maps_b[t])) {
@@ -276,6 +270,11 @@ std::vector<int> joinable(const mesh::Cut& cut, int first, const std::vector<int
   return list;
 }
 
+/// A patch without faces on the coarse level is left out.
+void add_patch(int facet, FacetPatch patch, std::vector<SweptFacet>& list) {
+  if (!patch.points.empty()) list.push_back({facet, std::move(patch)});
+}
+
 /// The facets of one cut that may join.
 /// \param first  number of the cut's first facet
 std::vector<SweptFacet> candidates(const Fragment& fragment, const mesh::Cut& cut, int first,
@@ -285,18 +284,16 @@ std::vector<SweptFacet> candidates(const Fragment& fragment, const mesh::Cut& cu
   if (fragment.facets.wall_thickness > 0)
     facet_of_face = unworn(fragment.facets, facet_of_face, fragment.sample_of_face);
   std::vector<SweptFacet> list;
-  for (const int f : joinable(cut, first, chosen)) {
-    list.push_back({first + f, cut_patch(fragment.coarse, facet_of_face, cut, f)});
-    if (list.back().patch.points.empty()) list.pop_back();
-  }
+  for (const int f : joinable(cut, first, chosen))
+    add_patch(first + f, cut_patch(fragment.coarse, facet_of_face, cut, f), list);
   return list;
 }
 
 /// The quarters of the large facets of one cut: where two breaks share a part alone and third pieces lie between the rest, the
 /// rest, seen as one with it, says that they do not agree.
 /// \param first  number of the cut's first facet
-std::vector<SweptFacet> parts(const Fragment& fragment, const mesh::Cut& cut, int first,
-                              const std::vector<int>& chosen) {
+std::vector<SweptFacet> large_parts(const Fragment& fragment, const mesh::Cut& cut, int first,
+                                    const std::vector<int>& chosen) {
   const double least = kLargeFacet * largest_fracture(cut);
   std::vector<int> large = joinable(cut, first, chosen);
   std::erase_if(large, [&](int f) { return cut.facets[static_cast<std::size_t>(f)].area < least; });
@@ -305,9 +302,8 @@ std::vector<SweptFacet> parts(const Fragment& fragment, const mesh::Cut& cut, in
   std::vector<SweptFacet> list;
   for (int k = 0; k < static_cast<int>(quarters.facets.size()); ++k) {
     const std::uint32_t sample = quarters.facets[static_cast<std::size_t>(k)].samples.front();
-    list.push_back(
-        {first + cut.facet_of_sample[sample], cut_patch(fragment.coarse, facet_of_face, quarters, k)});
-    if (list.back().patch.points.empty()) list.pop_back();
+    add_patch(first + cut.facet_of_sample[sample], cut_patch(fragment.coarse, facet_of_face, quarters, k),
+              list);
   }
   return list;
 }
@@ -326,8 +322,8 @@ SweepResult sweep(const Fragment& a, const Fragment& b, const SweepOptions& opti
   const auto seen_b = candidates(b, b.facets, 0, options.facets_b);
   const auto creased_a = candidates(a, a.facets.creased, facet_numbers(a).creased, options.facets_a);
   const auto creased_b = candidates(b, b.facets.creased, facet_numbers(b).creased, options.facets_b);
-  const auto parts_a = parts(a, a.facets.creased, facet_numbers(a).creased, options.facets_a);
-  const auto parts_b = parts(b, b.facets.creased, facet_numbers(b).creased, options.facets_b);
+  const auto parts_a = large_parts(a, a.facets.creased, facet_numbers(a).creased, options.facets_a);
+  const auto parts_b = large_parts(b, b.facets.creased, facet_numbers(b).creased, options.facets_b);
   const float outlines = CorrelateOptions{}.outline_weight;
   std::vector<Task> tasks;
   add_tasks(seen_a, seen_b, outlines, tasks);
