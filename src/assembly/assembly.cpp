@@ -339,6 +339,12 @@ class Assembler {
               ? fmt::format("{{{}}} and {{{}}} must join, but do not touch at the poses given", a, b)
               : fmt::format("{{{}}} and {{{}}} must join, but at none of their poses they fit", a, b));
     }
+    for (const auto& [a, b] : options_.constraints.must_not_join) {
+      if (growth_.group[a] != growth_.group[b] || !touch_forbidden(pieces_[a], pieces_[b], relative(a, b)))
+        continue;
+      result.warnings.push_back(fmt::format("{{{}}} and {{{}}} must not join, but touch{}", a, b,
+                                            is_pinned(a) && is_pinned(b) ? " at the poses given" : ""));
+    }
     const auto& pinned = options_.constraints.pinned;
     for (std::size_t i = 0; i < pinned.size(); ++i)
       for (std::size_t j = i + 1; j < pinned.size(); ++j) tell_of_given_poses(pinned[i], pinned[j], result);
@@ -348,12 +354,8 @@ class Assembler {
   void tell_of_given_poses(const std::pair<std::size_t, Rigid>& first,
                            const std::pair<std::size_t, Rigid>& second, Result& result) const {
     const auto [a, b] = std::pair(first.first, second.first);
-    if (interpenetrate(pieces_[a], pieces_[b], inverse(first.second) * second.second)) {
+    if (cross(pieces_[a], pieces_[b], inverse(first.second) * second.second))
       result.warnings.push_back(fmt::format("the poses given put {{{}}} and {{{}}} into each other", a, b));
-    } else if (among(options_.constraints.must_not_join, a, b) && touch_in(growth_, a, b)) {
-      result.warnings.push_back(
-          fmt::format("{{{}}} and {{{}}} must not join, but touch at the poses given", a, b));
-    }
   }
 
   const Options& options_;

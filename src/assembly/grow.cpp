@@ -18,7 +18,6 @@ constexpr double kTogether = 1.0;        // what two unsure joins need together 
 constexpr double kTogetherOdds = -5.0;   // of each, at least
 constexpr double kTogetherWorth = -8.0;  // of both, for the third pair to be asked
 constexpr std::size_t kProposals = 24;   // per two groups
-constexpr double kLeastTouch = 0.002;    // share of the smaller piece's surface
 
 std::pair<std::size_t, std::size_t> key_of(std::size_t a, std::size_t b) {
   return {std::min(a, b), std::max(a, b)};
@@ -363,15 +362,33 @@ bool Grower::fits(State& state, std::size_t link) {
         state.growth.rejected.push_back({link, Rejection::Why::Overlap, a, b});
         return false;
       }
-      const bool apart = std::find(unwanted_.begin(), unwanted_.end(), key_of(a, b)) != unwanted_.end();
-      const double least = kLeastTouch * std::min(pieces_[a].area(), pieces_[b].area());
-      if (apart && touch(pieces_[a], pieces_[b], b_to_a).area > least) {
-        state.growth.rejected.push_back({link, Rejection::Why::Forbidden, a, b});
-        return false;
-      }
     }
   }
-  return true;
+  const auto touching = forbidden_touch(state, link);
+  if (touching)
+    state.growth.rejected.push_back({link, Rejection::Why::Forbidden, touching->first, touching->second});
+  return !touching;
+}
+
+/// Two pieces that must not join and would touch if a link put its groups together.  Settled, as the errors of links add up to more
+/// than the distance at which surfaces touch.
+std::optional<Grower::Key> Grower::forbidden_touch(const State& state, std::size_t link) const {
+  const std::size_t into = state.growth.group[links_[link].a];
+  const std::size_t from = state.growth.group[links_[link].b];
+  std::vector<Key> between;
+  for (const Key& pair : unwanted_) {
+    if (key_of(state.growth.group[pair.first], state.growth.group[pair.second]) == key_of(into, from) &&
+        into != from)
+      between.push_back(pair);
+  }
+  if (between.empty()) return std::nullopt;
+  State together = state;
+  merge(together, link, 0.0);
+  Growth& growth = together.growth;
+  settle(growth, together.members.at(growth.group[links_[link].a]));
+  for (const auto& [a, b] : between)
+    if (touch_forbidden(pieces_[a], pieces_[b], inverse(growth.poses[a]) * growth.poses[b])) return Key{a, b};
+  return std::nullopt;
 }
 
 void Grower::merge(State& state, std::size_t link, double odds) const {
@@ -434,6 +451,8 @@ std::vector<Touching> Grower::contacts_of(const Growth& growth,
       const std::size_t a = members[x];
       const std::size_t b = members[y];
       const Rigid b_to_a = inverse(growth.poses[a]) * growth.poses[b];
+      if (std::ranges::find(unwanted_, key_of(a, b)) != unwanted_.end())
+        continue;  // not to be pulled together
       const std::size_t link = agreeing(growth, a, b);
       const double least = kContact * std::min(pieces_[a].area(), pieces_[b].area());
       if (link < links_.size()) {

@@ -116,6 +116,7 @@ class Grower {
   bool try_two(State& state, const Context& context);
   std::vector<Two> unsure_together(const State& state, const Context& context);
   bool fits(State& state, std::size_t link);
+  std::optional<Key> forbidden_touch(const State& state, std::size_t link) const;
   bool overlap(std::size_t a, std::size_t b, const Rigid& b_to_a);
   void merge(State& state, std::size_t link, double odds) const;
   void sum_up(Growth& growth) const;

@@ -14,7 +14,9 @@ constexpr std::size_t kBodySamples = 2500;
 constexpr double kFacing = -0.5;   // normals within 60 degrees of opposite
 constexpr double kClearly = 0.25;  // wall thicknesses; less inside is worn edges and small errors of the pose
 constexpr std::size_t kInsideSamples = 600;
-constexpr double kMostOverlap = 0.03;  // of the smaller one's surface
+constexpr double kMostOverlap = 0.03;      // of the smaller one's surface
+constexpr double kMostCrossing = 0.0015;   // the same, of poses given by hand
+constexpr double kLeastForbidden = 0.002;  // the same, of contact
 
 std::size_t stride(std::size_t count, std::size_t most) {
   return most > 0 ? std::max<std::size_t>(1, count / most) : 1;
@@ -79,6 +81,28 @@ void spend_shared_inside(const Piece& a, const Piece& b, const Rigid& b_to_a, do
     if (a.holds(b_to_a(in_b), limit) && b.holds(in_b, limit))
       allowance.spend(static_cast<double>(step) * b.body_area());
   }
+}
+
+bool overlap_more_than(double share, const Piece& a, const Piece& b, const Rigid& b_to_a) {
+  if (!are_near(a, b, b_to_a, 0.0)) return false;
+  const double thickness = match::thinner_wall(a.fragment(), b.fragment());
+  const double scan = std::max(a.fragment().resolution, b.fragment().resolution);
+  const double size = std::min(a.fragment().diameter, b.fragment().diameter);
+  const double limit = std::max(thickness > 0 ? kClearly * thickness : 0.01 * size, 2.0 * scan);
+  const Rigid a_to_b = inverse(b_to_a);
+  const double allowed = share * std::min(a.area(), b.area());
+  Allowance surface(allowed);
+  spend_inside(a, b, b_to_a, limit, surface);
+  spend_inside(b, a, a_to_b, limit, surface);
+  if (surface.is_spent()) return true;
+  // Half way into a wall is inside it, however coarse the scan.
+  const double within = thickness > 0 ? kClearly * thickness : limit;
+  Allowance inside(allowed);
+  if (a.area() < b.area())
+    spend_shared_inside(b, a, a_to_b, within, inside);
+  else
+    spend_shared_inside(a, b, b_to_a, within, inside);
+  return inside.is_spent();
 }
 
 }  // namespace
@@ -159,26 +183,16 @@ Touch touch(const Piece& a, const Piece& b, const Rigid& b_to_a) {
   return {touching_count * b.broken_area(), match::median_gap(std::move(gaps))};
 }
 
+bool touch_forbidden(const Piece& a, const Piece& b, const Rigid& b_to_a) {
+  return touch(a, b, b_to_a).area > kLeastForbidden * std::min(a.area(), b.area());
+}
+
 bool interpenetrate(const Piece& a, const Piece& b, const Rigid& b_to_a) {
-  if (!are_near(a, b, b_to_a, 0.0)) return false;
-  const double thickness = match::thinner_wall(a.fragment(), b.fragment());
-  const double scan = std::max(a.fragment().resolution, b.fragment().resolution);
-  const double size = std::min(a.fragment().diameter, b.fragment().diameter);
-  const double limit = std::max(thickness > 0 ? kClearly * thickness : 0.01 * size, 2.0 * scan);
-  const Rigid a_to_b = inverse(b_to_a);
-  const double allowed = kMostOverlap * std::min(a.area(), b.area());
-  Allowance surface(allowed);
-  spend_inside(a, b, b_to_a, limit, surface);
-  spend_inside(b, a, a_to_b, limit, surface);
-  if (surface.is_spent()) return true;
-  // Half way into a wall is inside it, however coarse the scan.
-  const double within = thickness > 0 ? kClearly * thickness : limit;
-  Allowance inside(allowed);
-  if (a.area() < b.area())
-    spend_shared_inside(b, a, a_to_b, within, inside);
-  else
-    spend_shared_inside(a, b, b_to_a, within, inside);
-  return inside.is_spent();
+  return overlap_more_than(kMostOverlap, a, b, b_to_a);
+}
+
+bool cross(const Piece& a, const Piece& b, const Rigid& b_to_a) {
+  return overlap_more_than(kMostCrossing, a, b, b_to_a);
 }
 
 }  // namespace rejoin::assembly

@@ -81,8 +81,14 @@ Touch touch(const Piece& a, const Piece& b, const Rigid& b_to_a);
 /// Contact below this share of the smaller piece's surface is none.
 inline constexpr double kContact = 0.001;
 
+/// Whether two pieces that must not join touch: more than two corners that meet do.
+bool touch_forbidden(const Piece& a, const Piece& b, const Rigid& b_to_a);
+
 /// Whether two pieces cannot lie as they do: more than 3 % of the smaller one's surface lies clearly inside the other (both ways added up),
 /// or has both insides under it, which tells solids that coincide.
 bool interpenetrate(const Piece& a, const Piece& b, const Rigid& b_to_a);
+
+/// The same for poses that nobody searched: a twentieth of that surface is enough, as that of sherds which cross at a corner.
+bool cross(const Piece& a, const Piece& b, const Rigid& b_to_a);
 
 }  // namespace rejoin::assembly

@@ -33,6 +33,7 @@ class Meeting {
       return same_pose(pieces_[link.a], pieces_[link.b], link.pose, relative(link.a, link.b), options_);
     });
     if (!steady) return 0.0;
+    if (forbidden_touch()) return std::nullopt;
     double sum = 0.0;
     for (std::size_t k = 0; k < others; ++k) {
       const auto [a, b, pose, matched] = contacts[k];
@@ -50,6 +51,23 @@ class Meeting {
     return std::any_of(links_.begin(), links_.end(), [&](const Link& link) {
       return (link.a == a && link.b == b) || (link.a == b && link.b == a);
     });
+  }
+
+  bool is_forbidden(std::size_t a, std::size_t b) const {
+    return std::ranges::any_of(options_.constraints.must_not_join, [&](const auto& pair) {
+      return std::minmax(pair.first, pair.second) == std::minmax(a, b);
+    });
+  }
+
+  /// Whether any two that must not join touch.
+  bool forbidden_touch() const {
+    const auto touching = [&](std::size_t a, std::size_t b) {
+      return is_forbidden(a, b) && touch_forbidden(pieces_[a], pieces_[b], relative(a, b));
+    };
+    for (std::size_t g = 0; g < groups_.size(); ++g)
+      for (std::size_t h = g + 1; h < groups_.size(); ++h)
+        if (any_two(groups_[g], groups_[h], touching)) return true;
+    return false;
   }
 
   bool are_linked(const std::vector<std::size_t>& first, const std::vector<std::size_t>& second) const {
@@ -76,6 +94,7 @@ class Meeting {
     const auto add = [&](std::size_t a, std::size_t b) {
       const Rigid b_to_a = relative(a, b);
       const double least = kContact * std::min(pieces_[a].area(), pieces_[b].area());
+      if (is_forbidden(a, b)) return false;
       if (is_own(a, b) || touch(pieces_[a], pieces_[b], b_to_a).area > least)
         contacts.push_back({a, b, b_to_a, false});
       return false;

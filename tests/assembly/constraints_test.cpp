@@ -2,10 +2,18 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "assembly/piece.hpp"
 #include "broken_balls.hpp"
 
 namespace rejoin::assembly::testing {
 namespace {
+
+/// Whether two pieces are of two objects or do not touch in theirs.
+bool apart(const Result& result, std::size_t a, std::size_t b) {
+  if (result.placements[a].group < 0 || result.placements[a].group != result.placements[b].group) return true;
+  return !touch_forbidden(Piece(ball().fragments[a]), Piece(ball().fragments[b]),
+                          inverse(result.placements[a].pose) * result.placements[b].pose);
+}
 
 TEST(Constraints, PairsThatMustNotJoinStayApart) {
   const Corner corner = corner_of(ball());
@@ -15,6 +23,49 @@ TEST(Constraints, PairsThatMustNotJoinStayApart) {
   const bool together = result.placements[corner.a].group >= 0 &&
                         result.placements[corner.a].group == result.placements[corner.b].group;
   EXPECT_FALSE(together);
+}
+
+TEST(Constraints, PairsThatMustNotJoinAreNotPulledTogetherWhereJoinsAreALittleOff) {
+  const Corner corner = corner_of(ball());
+  Options options;
+  options.constraints.must_not_join = {{corner.a, corner.c}};
+  for (const double shift : {0.008, 0.012}) {
+    const std::vector<Link> links{ball().true_link(corner.a, corner.b, 0.995),
+                                  ball().false_link(corner.b, corner.c, 0.995, 0.5, shift),
+                                  ball().false_link(corner.b, corner.c, 0.994, 0.5, -shift)};
+    EXPECT_TRUE(apart(run(ball(), links, options), corner.a, corner.c)) << shift;
+  }
+}
+
+TEST(Constraints, PairsThatMustNotJoinAndTouchAtGivenPosesAreTold) {
+  const Corner corner = corner_of(ball());
+  Options options;
+  options.constraints.must_not_join = {{corner.a, corner.c}};
+  options.constraints.pinned = {{corner.a, ball().to_world[corner.a]}, {corner.c, ball().to_world[corner.c]}};
+  const Result result = run(ball(), ball().all_true(0.99), options);
+  EXPECT_FALSE(apart(result, corner.a, corner.c));
+  EXPECT_EQ(result.warnings.size(), 1U);
+}
+
+TEST(Constraints, GivenPosesThatLetPiecesCrossALittleAreTold) {
+  const Corner corner = corner_of(ball());
+  const auto middle = [&](std::size_t k) {
+    return ball().to_world[k](mesh::centroid(ball().fragments[k].surface) +
+                              ball().fragments[k].surface.origin);
+  };
+  Rigid deeper = ball().to_world[corner.b];
+  deeper.translation +=
+      0.06 * ball().fragments[corner.b].diameter * glm::normalize(middle(corner.a) - middle(corner.b));
+  const auto warnings = [&](const Rigid& at_b) {
+    Options options;
+    options.constraints.pinned = {{corner.a, ball().to_world[corner.a]}, {corner.b, at_b}};
+    return run(ball(), {}, options).warnings.size();
+  };
+  EXPECT_EQ(warnings(ball().to_world[corner.b]), 0U);
+  EXPECT_EQ(warnings(deeper), 1U);
+  EXPECT_FALSE(interpenetrate(Piece(ball().fragments[corner.a]), Piece(ball().fragments[corner.b]),
+                              inverse(ball().to_world[corner.a]) * deeper))
+      << "a searched pose may be off by that";
 }
 
 TEST(Constraints, APieceLeftOutByThemSaysSo) {
@@ -124,7 +175,7 @@ TEST(Constraints, PosesGivenAgainstOtherWishesAreKeptAndTold) {
             std::vector<std::string>{names + " must join, but do not touch at the poses given"});
   EXPECT_TRUE(warnings(far_off, false).empty());
   EXPECT_EQ(warnings(ball().to_world[corner.b], false),
-            std::vector<std::string>{other_way + " must not join, but touch at the poses given"});
+            std::vector<std::string>{names + " must not join, but touch at the poses given"});
   const Rigid inside = at_a * ball().inside_link(corner.a, corner.b, 1.0).pose;
   EXPECT_EQ(warnings(inside, false),
             std::vector<std::string>{"the poses given put " + other_way + " into each other"});
