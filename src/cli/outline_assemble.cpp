@@ -5,6 +5,7 @@
 #include <chrono>
 #include <filesystem>
 #include <optional>
+#include <system_error>
 
 #include "cli/arguments.hpp"
 #include "cli/outline_command.hpp"
@@ -61,7 +62,7 @@ class OutlineAssembleCommand final : public Command {
     const auto begin = std::chrono::steady_clock::now();
     outline::MultiscaleOptions multiscale;
     apply_calibration(calibration_, method_, multiscale);
-    if (out_) require_writable_folder(*out_);  // first, for --json may lie in it
+    if (out_) require_out();  // first, for --json may lie in it
     if (json_) require_writable_file(*json_);
     const outline::PieceSet set = load_folder(folder_, console);
     const std::size_t count = set.pieces.size();
@@ -91,6 +92,17 @@ class OutlineAssembleCommand final : public Command {
   }
 
  private:
+  /// \throws UsageError the user's own pictures among the pieces have names of what would be written
+  void require_out() const {
+    require_writable_folder(*out_);
+    std::error_code ignored;
+    if (!std::filesystem::equivalent(*out_, folder_, ignored)) return;
+    const auto foreign = outline::foreign_result(*out_);
+    if (foreign)
+      throw UsageError(foreign->string(), "lies among the pieces and would be lost",
+                       "give --out another place");
+  }
+
   void write_pictures(const std::vector<outline::Piece>& pieces, const outline::Assembly& assembly,
                       Console& console) const {
     std::vector<std::filesystem::path> files{std::filesystem::path(*out_) / "pieces.png"};

@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <regex>
+#include <string>
 #include <system_error>
 
+#include "core/png_mark.hpp"
 #include "outline/contact.hpp"
 #include "outline/detail/drawing.hpp"
 
@@ -131,14 +135,24 @@ void lay(cv::Mat canvas, const cv::Mat& colours, const cv::Mat& mask) {
   }
 }
 
-/// Takes pictures of objects away that are none of these.
+/// Whether a file is a PNG that this program wrote.
+bool is_ours(const std::filesystem::path& file) {
+  constexpr std::size_t kEnough = 64;
+  std::ifstream stream(file, std::ios::binary);
+  std::string start(kEnough, '\0');
+  stream.read(start.data(), static_cast<std::streamsize>(start.size()));
+  return is_marked_png(start);
+}
+
+/// Takes pictures of objects away that this program wrote and are none of these.
 void remove_others(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files) {
   static const std::regex kOurs(R"((object|joins)_[0-9]+\.png)");
   std::vector<std::filesystem::path> others;
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
     if (std::regex_match(entry.path().filename().string(), kOurs) &&
-        std::find(files.begin(), files.end(), folder / entry.path().filename()) == files.end())
+        std::find(files.begin(), files.end(), folder / entry.path().filename()) == files.end() &&
+        is_ours(entry.path()))
       others.push_back(entry.path());
   }
   for (const std::filesystem::path& other : others) std::filesystem::remove(other, ignored);
@@ -249,6 +263,19 @@ std::vector<std::uint8_t> assembled_png(const std::vector<Piece>& pieces, const 
   std::vector<Placed> members;
   for (std::size_t i = 0; i < pieces.size(); ++i) members.push_back({&pieces[i], poses[i], i});
   return png_of(object_picture(members, view_of(members, options)));
+}
+
+std::optional<std::filesystem::path> foreign_result(const std::filesystem::path& folder) {
+  static const std::regex kResults(R"((object|joins)_[0-9]+\.png|pieces\.png|similarity\.png)");
+  std::vector<std::filesystem::path> foreign;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    if (entry.is_regular_file(ignored) && std::regex_match(entry.path().filename().string(), kResults) &&
+        !is_ours(entry.path()))
+      foreign.push_back(entry.path());
+  }
+  if (foreign.empty()) return std::nullopt;
+  return *std::min_element(foreign.begin(), foreign.end());
 }
 
 std::vector<std::filesystem::path> write_assembly_pictures(const std::filesystem::path& folder,

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "outline/assembly.hpp"
@@ -22,11 +23,14 @@ struct PictureOptions {
 std::vector<std::uint8_t> assembled_png(const std::vector<Piece>& pieces, const std::vector<Planar>& poses,
                                         const PictureOptions& options = {});
 
+/// The first file of a folder that has the name of a picture of an assembly and is none that this program wrote; nullopt: none has.
+std::optional<std::filesystem::path> foreign_result(const std::filesystem::path& folder);
+
 /// Writes into a folder, each file whole or not at all:
 /// - object_1.png ..: the pieces of an object in their places, see assembled_png()
 /// - joins_1.png ..: the same pieces in grey with their common boundaries in red and the pieces' numbers where
 ///   each is widest, and beside them which number is which piece
-/// Pictures of further objects that an earlier run has left there are removed.
+/// Pictures of further objects that an earlier run has left there are removed; others of such names stay.
 /// \return the files
 /// \throws IoError a picture cannot be read again or a file cannot be written
 std::vector<std::filesystem::path> write_assembly_pictures(const std::filesystem::path& folder,

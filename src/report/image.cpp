@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/files.hpp"
+#include "core/png_mark.hpp"
 
 namespace rejoin::report {
 namespace {
@@ -31,7 +32,7 @@ std::vector<std::uint8_t> encode_jpeg(const Image& image, int quality) {
 
 void write_png(const std::filesystem::path& path, const Image& image) {
   const std::vector<std::uint8_t> bytes = encode_png(image);
-  write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  write_file(path, marked_png({reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
 }
 
 Colour mix(Colour a, Colour b, double share) {

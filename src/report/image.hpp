@@ -31,6 +31,7 @@ std::vector<std::uint8_t> encode_png(const Image& image);
 /// \param quality  1 .. 100
 std::vector<std::uint8_t> encode_jpeg(const Image& image, int quality);
 
+/// With the program's mark, see core/png_mark.hpp.
 /// \throws IoError the file cannot be written; it then does not appear at all
 void write_png(const std::filesystem::path& path, const Image& image);
 

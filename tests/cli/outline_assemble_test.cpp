@@ -68,13 +68,38 @@ TEST(OutlineAssemble, PicturesOfAnEarlierRunDoNotStay) {
   const BrokenShapes shapes;
   const std::string pictures = shapes / "pictures";
   std::filesystem::create_directory(pictures);
-  for (const char* name : {"object_2.png", "object_3.png", "joins_12.png", "object_plan.png"})
-    write_file(pictures + "/" + name, "old");
+  EXPECT_EQ(run({"outline", "assemble", shapes.pieces, "--out", pictures}).exit_code, 0);
+  for (const char* name : {"object_3.png", "joins_12.png", "object_plan.png"})
+    std::filesystem::copy_file(pictures + "/object_1.png", pictures + "/" + name);
+  write_file(pictures + "/object_2.png", "old");
+  write_file(pictures + "/object_30.png", "of the user's own");
   EXPECT_EQ(run({"outline", "assemble", shapes.pieces, "--out", pictures}).exit_code, 0);
   EXPECT_NE(read_file(pictures + "/object_2.png"), "old");
+  EXPECT_TRUE(std::filesystem::exists(pictures + "/object_30.png"));
   EXPECT_FALSE(std::filesystem::exists(pictures + "/object_3.png"));
   EXPECT_FALSE(std::filesystem::exists(pictures + "/joins_12.png"));
   EXPECT_TRUE(std::filesystem::exists(pictures + "/object_plan.png"));
+}
+
+TEST(OutlineAssemble, PicturesOfTheUsersOwnAmongThePiecesAreNotLost) {
+  const BrokenShapes shapes;
+  const std::vector<std::string> into_pieces = {"outline", "assemble", shapes.pieces, "--out", shapes.pieces};
+  EXPECT_EQ(run(into_pieces).exit_code, 0);
+  EXPECT_EQ(run(into_pieces).exit_code, 0) << "its own may be written again";
+  for (const char* name : {"object_7.png", "joins_1.png", "pieces.png", "similarity.png"}) {
+    const std::string file = shapes.pieces + "/" + name;
+    const bool was_there = std::filesystem::exists(file);
+    if (was_there) std::filesystem::rename(file, shapes / "kept");
+    write_file(file, "a scan");
+    const Finished done = run(into_pieces);
+    EXPECT_EQ(done.exit_code, 2) << done.err;
+    EXPECT_NE(done.err.find(std::string(name) + ": lies among the pieces and would be lost"),
+              std::string::npos)
+        << done.err;
+    EXPECT_EQ(read_file(file), "a scan");
+    std::filesystem::remove(file);
+    if (was_there) std::filesystem::rename(shapes / "kept", file);
+  }
 }
 
 TEST(OutlineAssemble, TwoPiecesThatMatchSaysJoinAreJoined) {

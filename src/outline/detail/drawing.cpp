@@ -7,6 +7,7 @@
 
 #include "core/ascii.hpp"
 #include "core/files.hpp"
+#include "core/png_mark.hpp"
 #include "picture/image_file.hpp"
 
 namespace rejoin::outline::detail {
@@ -69,7 +70,7 @@ std::string short_name(const std::string& full) {
 void write_png(const std::filesystem::path& path, const cv::Mat& image) {
   std::vector<std::uint8_t> bytes;
   cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 6});
-  write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  write_file(path, marked_png({reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
 }
 
 }  // namespace rejoin::outline::detail

@@ -23,7 +23,7 @@ cv::Mat colours_on_white(const Piece& piece);
 /// At most 32 letters that the font has, cut in the middle: names of pictures differ at their ends.
 std::string short_name(const std::string& full);
 
-/// \throws IoError  it cannot be written
+/// With the program's mark, see core/png_mark.hpp.  \throws IoError  it cannot be written
 void write_png(const std::filesystem::path& path, const cv::Mat& image);
 
 }  // namespace rejoin::outline::detail
