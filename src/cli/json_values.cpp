@@ -16,7 +16,6 @@ using nlohmann::ordered_json;
 
 namespace {
 
-constexpr double kTolerance = 1e-4;
 constexpr double kLargestShift = 1e13;  // of scans, whose coordinates end at 1e12, one onto another
 
 bool is_matrix(const ordered_json& rows) {
@@ -28,16 +27,6 @@ bool is_matrix(const ordered_json& rows) {
     }
   }
   return rows[3] == ordered_json({0.0, 0.0, 0.0, 1.0});
-}
-
-bool is_rotation(const glm::dmat3& matrix) {
-  const glm::dmat3 product = glm::transpose(matrix) * matrix;
-  for (int column = 0; column < 3; ++column) {
-    for (int row = 0; row < 3; ++row) {
-      if (std::abs(product[column][row] - (row == column ? 1.0 : 0.0)) > kTolerance) return false;
-    }
-  }
-  return glm::determinant(matrix) > 0.0;
 }
 
 /// Gram-Schmidt.

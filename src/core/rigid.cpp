@@ -2,6 +2,17 @@
 
 namespace rejoin {
 
+bool is_rotation(const glm::dmat3& matrix) {
+  constexpr double kTolerance = 1e-4;
+  const glm::dmat3 product = glm::transpose(matrix) * matrix;
+  for (int column = 0; column < 3; ++column) {
+    for (int row = 0; row < 3; ++row) {
+      if (!(std::abs(product[column][row] - (row == column ? 1.0 : 0.0)) <= kTolerance)) return false;
+    }
+  }
+  return glm::determinant(matrix) > 0.0;
+}
+
 glm::dmat3 frame_of(const glm::dvec3& z) {
   const glm::dvec3 helper = std::abs(z.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
   const glm::dvec3 x = glm::normalize(glm::cross(helper, z));

@@ -31,6 +31,9 @@ inline double angle_between(const Rigid& a, const Rigid& b) {
   return std::acos(std::clamp((r[0][0] + r[1][1] + r[2][2] - 1.0) / 2.0, -1.0, 1.0));
 }
 
+/// Whether columns are unit vectors at right angles to 1e-4, right-handed; not for a NaN.
+bool is_rotation(const glm::dmat3& matrix);
+
 /// Rotation by `angle_rad` about the unit vector `axis` (Rodrigues).
 inline glm::dmat3 axis_rotation(const glm::dvec3& axis, double angle_rad) {
   const double c = std::cos(angle_rad);

@@ -2,6 +2,7 @@
 
 #include <SQLiteCpp/Backup.h>
 #include <fmt/format.h>
+#include <sqlite3.h>
 
 #include <charconv>
 #include <map>
@@ -201,7 +202,8 @@ void put_in_place(const fs::path& made, const fs::path& output) {
     SQLite::Database source(made.string(), SQLite::OPEN_READONLY);
     SQLite::Database target(path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, detail::kPatience_ms);
     target.exec("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL");
-    SQLite::Backup(target, source).executeStep(-1);
+    if (SQLite::Backup(target, source).executeStep(-1) != SQLITE_DONE)
+      throw StoreError(path, "is in use by another program", "close it there and run the command again");
   });
 }
 

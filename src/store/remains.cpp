@@ -57,7 +57,14 @@ std::string told(const Remains& remains) {
 std::string told(const Remains& remains, const std::string& fragment) {
   const auto at = remains.missing_of.find(fragment);
   if (at == remains.missing_of.end()) return "";
+  if (at->second == remains.pairs_each)
+    return fmt::format("none of its {} is compared yet", counted(at->second, "pair"));
   return not_compared(at->second, "its ", remains.pairs_each);
+}
+
+bool is_compared(const Remains& remains, const std::string& fragment) {
+  const auto at = remains.missing_of.find(fragment);
+  return at == remains.missing_of.end() || at->second < remains.pairs_each;
 }
 
 }  // namespace rejoin::store

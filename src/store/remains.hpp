@@ -26,4 +26,7 @@ std::string told(const Remains& remains);
 /// The same of one fragment: "5 of its 8 pairs are not compared yet".
 std::string told(const Remains& remains, const std::string& fragment);
 
+/// Whether any pair of the fragment is compared; of one that the database does not know, too.
+bool is_compared(const Remains& remains, const std::string& fragment);
+
 }  // namespace rejoin::store

@@ -278,7 +278,18 @@ std::vector<Candidate> Run::candidates(std::int64_t a, std::int64_t b) const {
     rows.bind(1, a);
     rows.bind(2, b);
     std::vector<Candidate> list;
-    while (rows.executeStep()) list.push_back(detail::candidate_from(rows));
+    while (rows.executeStep()) {
+      const std::optional<Candidate> candidate = detail::candidate_from(rows);
+      if (!candidate) {
+        throw StoreError(
+            access_->path,
+            fmt::format("candidate {} of fragments {} and {} has no score from 0 to 1, or no rigid "
+                        "pose",
+                        rows.getColumn(0).getString(), a, b),
+            "put its row right, or delete that of the pair and run rejoin batch again");
+      }
+      list.push_back(*candidate);
+    }
     return list;
   });
 }
@@ -296,6 +307,8 @@ Run::Forgotten Run::begin(const Parameters& parameters, const std::vector<Fragme
     if (read_parameters(database) != parameters) {
       forgotten.parameters = has_pairs(database);
       database.exec("DELETE FROM pair");
+      database.exec(
+          "UPDATE fragment SET state = 'waiting', error = '' WHERE state = 'bad'");  // may be read now
     }
     write_parameters(database, parameters, shard);
     const std::map<std::string, Fragment> all = wanted;

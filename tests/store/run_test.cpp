@@ -136,6 +136,35 @@ TEST_F(RunTest, PairSavedAgainReplacesItsCandidates) {
   EXPECT_EQ(run.done().size(), 1U);
 }
 
+TEST_F(RunTest, CandidateWithoutPoseOrScoreIsRefused) {
+  make_run();
+  const auto candidates = [&] {
+    const store::Run run = store::Run::open(folder_);
+    return run.candidates(run.pairs().at(0));
+  };
+  SQLite::Database database((folder_ / kFileName).string(), SQLite::OPEN_READWRITE);
+  for (const char* change : {"m12 = 'a word'", "m12 = 2", "m14 = 9e999", "score = 1.5", "score = ''"}) {
+    database.exec(std::string("UPDATE candidate SET ") + change);
+    EXPECT_THROW(candidates(), StoreError) << change;
+    store::Run::write(folder_).save(store::Run::open(folder_).pairs().at(0), {candidate_});
+    EXPECT_EQ(candidates().size(), 1U);
+  }
+}
+
+TEST_F(RunTest, WhatAnotherVersionCouldNotReadIsTriedAgain) {
+  make_run();
+  store::Run run = store::Run::write(folder_);
+  Fragment bad = run.fragments()[2];
+  bad.state = FragmentState::Bad;
+  bad.error = "cannot be read";
+  run.save(bad);
+  run.begin(kParameters, three_);
+  EXPECT_EQ(run.fragments()[2].state, FragmentState::Bad);
+  run.begin({"0.2.0", kParameters.json, kParameters.seed}, three_);
+  EXPECT_EQ(run.fragments()[2].state, FragmentState::Waiting);
+  EXPECT_EQ(run.fragments()[2].error, "");
+}
+
 TEST_F(RunTest, SameInputsKeepEverything) {
   make_run();
   store::Run run = store::Run::write(folder_);

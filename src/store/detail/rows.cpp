@@ -103,14 +103,20 @@ std::vector<Fragment> all_fragments(SQLite::Database& database) {
   return list;
 }
 
-Candidate candidate_from(SQLite::Statement& row) {
+std::optional<Candidate> candidate_from(SQLite::Statement& row) {
+  for (int k = 0; k < 18; ++k) {  // what is no number would be read as 0
+    if (!row.getColumn(k).isInteger() && !row.getColumn(k).isFloat()) return std::nullopt;
+  }
   Candidate candidate;
   candidate.rank = row.getColumn(0).getInt();
   candidate.score = row.getColumn(1).getDouble();
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) candidate.pose.rotation[j][i] = row.getColumn(2 + 4 * i + j).getDouble();
     candidate.pose.translation[i] = row.getColumn(5 + 4 * i).getDouble();
+    if (!std::isfinite(candidate.pose.translation[i])) return std::nullopt;
   }
+  if (!is_rotation(candidate.pose.rotation) || !(candidate.score >= 0.0 && candidate.score <= 1.0))
+    return std::nullopt;
   candidate.facet_a = row.getColumn(18).getInt();
   candidate.facet_b = row.getColumn(19).getInt();
   candidate.depth = measured(row.getColumn(20));

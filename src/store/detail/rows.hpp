@@ -3,6 +3,7 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,8 @@ Stage stage(const std::string& name);
 Fragment fragment_from(SQLite::Statement& row);
 /// By name.
 std::vector<Fragment> all_fragments(SQLite::Database& database);
-Candidate candidate_from(SQLite::Statement& row);
+/// Nothing if its rank, score or pose is none.
+std::optional<Candidate> candidate_from(SQLite::Statement& row);
 
 /// Binds the columns of kCandidateColumns to parameters first, first + 1, ...
 void bind_candidate(SQLite::Statement& statement, int first, const Candidate& candidate);
