@@ -84,8 +84,11 @@ class Reader {
       read_assembly(json);
       return;
     }
-    for (const auto& [number, pose] : read_constraints({path_, text_}, names_).pinned)
-      layout_.emplace(names_[number], pose);
+    const assembly::Constraints constraints = read_constraints({path_, text_}, names_);
+    if (!constraints.must_join.empty() || !constraints.must_not_join.empty())
+      fail("says which pairs must or must not join, which no search by a layout heeds",
+           "leave its \"poses\" alone here, and give the rest to rejoin assemble --constraints");
+    for (const auto& [number, pose] : constraints.pinned) layout_.emplace(names_[number], pose);
   }
 
   void read_assembly(const ordered_json& json) {
@@ -94,6 +97,8 @@ class Reader {
       fail("is no assembly (schema rejoin.assembly/1)");
     for (const auto& [name, fragment] : json["fragments"].items()) {
       if (!fragment.is_object() || !fragment.contains("pose") || fragment["pose"].is_null()) continue;
+      if (fragment.value("group", ordered_json(0)) != 0)
+        continue;  // beside the first object, for the eye alone
       lay(name, rigid_from_json(fragment["pose"]), "make it again with rejoin assemble");
     }
   }
