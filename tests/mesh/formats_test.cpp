@@ -281,6 +281,15 @@ TEST(Obj, ReadsNegativeIndicesNormalsColoursAndContinuedLines) {
   EXPECT_EQ(loaded.mesh.colours[1], glm::u8vec3(0, 255, 0));
 }
 
+TEST(Obj, TakesColoursThatAreWrittenAsBytes) {
+  const TemporaryFolder folder;
+  const Loaded loaded = load(
+      folder.write("a.obj", "v 0 0 0 120 60 30\nv 1 0 0 0 255 0\nv 1 1 0 1 1 1\nv 0 1 0 9 9 9\nf 1 2 3 4\n"));
+  ASSERT_EQ(loaded.mesh.colours.size(), 4U);
+  EXPECT_EQ(loaded.mesh.colours[0], glm::u8vec3(120, 60, 30));
+  EXPECT_EQ(loaded.mesh.colours[2], glm::u8vec3(1, 1, 1));
+}
+
 TEST(Off, ReadsCountsOnTheFirstLineCommentsAndColours) {
   const TemporaryFolder folder;
   const auto path = folder.write("a.off",

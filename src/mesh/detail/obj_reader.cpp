@@ -55,7 +55,9 @@ class ObjReader {
     doubt_end();
     assign_normals();
     if (coloured_ == soup_.points.size()) {
-      soup_.colours = std::move(colours_);
+      const double scale = brightest_ > 1.5 ? 1.0 : 255.0;  // some programs write bytes
+      soup_.colours.reserve(colours_.size());
+      for (const glm::vec3& colour : colours_) soup_.colours.push_back(to_bytes(scale * glm::dvec3(colour)));
     } else {
       paint();
     }
@@ -93,7 +95,8 @@ class ObjReader {
     }
     if (count < 3) return;
     ++coloured_;
-    colours_.push_back(to_bytes(extra * 255.0));
+    brightest_ = std::max({brightest_, extra.x, extra.y, extra.z});
+    colours_.emplace_back(extra);
   }
 
   /// "vt u v": a place on the texture, from its lower left corner.
@@ -213,7 +216,8 @@ class ObjReader {
   bool may_be_cut_;
   Soup soup_;
   std::vector<glm::vec3> normals_;
-  std::vector<glm::u8vec3> colours_;
+  std::vector<glm::vec3> colours_;  ///< as written
+  double brightest_ = 0.0;          ///< of their components
   std::vector<std::uint32_t> corner_normals_;
   std::vector<std::uint32_t> face_lines_;
   std::vector<glm::dvec2> places_;            ///< on the texture, from its upper left corner
