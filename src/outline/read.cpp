@@ -155,8 +155,12 @@ bool is_other_picture(const fs::path& path) {
 std::optional<double> units_an_inch(const fs::path& file) {
   constexpr double kUnknown = 96.5;  // dots an inch, and below
   if (kind_of(file) == Kind::Svg) {
-    const double units = detail::svg_units_an_inch(file.string(), read_file(file));
-    return units > 0.0 ? std::optional(units) : std::nullopt;
+    try {
+      const double units = detail::svg_units_an_inch(file.string(), read_file(file));
+      return units > 0.0 ? std::optional(units) : std::nullopt;
+    } catch (const InputError&) {  // a width such as "100vw"
+      return std::nullopt;
+    }
   }
   if (kind_of(file) != Kind::Picture) return std::nullopt;
   const auto header = picture::image_header(read_file(file));
@@ -255,6 +259,13 @@ PieceSet read_folder(const std::string& folder, const ExtractOptions& options) {
   if (problem)
     throw IoError(folder, "cannot be read (" + problem.message() + ")",
                   "give a folder of pictures or outlines");
+  if (files.empty() && !results.empty()) {
+    throw InputError(
+        folder,
+        fmt::format("holds only {} with names that rejoin gives to results ({})",
+                    counted(results.size(), "picture"), *std::min_element(results.begin(), results.end())),
+        "if they are pieces, rename them");
+  }
   if (files.empty()) {
     throw InputError(folder, "holds no picture and no outline",
                      "put png, jpg, tif, csv, svg or geojson files there");

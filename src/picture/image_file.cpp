@@ -264,7 +264,7 @@ bool starts_like_a_picture(std::string_view bytes) {
 }  // namespace
 
 bool has_picture_name(const std::filesystem::path& path) {
-  constexpr std::array<const char*, 5> kKinds = {".png", ".jpg", ".jpeg", ".tif", ".tiff"};
+  constexpr std::array<const char*, 7> kKinds = {".png", ".jpg", ".jpeg", ".jpe", ".jfif", ".tif", ".tiff"};
   return std::find(kKinds.begin(), kKinds.end(), extension_of(path)) != kKinds.end();
 }
 

@@ -233,6 +233,9 @@ TEST_F(Read, CsvTakesTheColumnsThatAreNamedXAndY) {
   EXPECT_EQ(points("a.csv", "id,x,y\np1,0,5\n,7,5\n3,7,8\n4,0,8\n"), expected);
   EXPECT_EQ(points("b.csv", "\"Y [mm]\";\"X [mm]\"\n5,0;0\n5,0;7,0\n8,0;7,0\n8,0;0\n"), expected);
   EXPECT_EQ(points("c.txt", "n  lon  lat\n1  0  5\n2  7  5\n3  7  8\n4  0  8\n"), expected);
+  EXPECT_EQ(points("h.csv", "\"\",\"x\",\"y\"\n\"1\",0,5\n\"2\",7,5\n\"3\",7,8\n\"4\",0,8\n"), expected)
+      << "as R writes it";
+  EXPECT_EQ(points("i.csv", ",x,y\n0,0,5\n2,7,5\n4,7,8\n6,0,8\n"), expected) << "as pandas does";
   EXPECT_EQ(points("d.txt", "a\tb\n0\t5\n7\t5\n7\t8\n0\t8\n"), expected);
   expect_refusal("e.csv", "id,x,y\n1,0,5\n2,7\n", "line 3 is no point");
   expect_refusal("f.csv", "1,0,5\n2,7,5\n3,7,8\n4,0,8\n", "its first column counts the points");

@@ -58,6 +58,9 @@ TEST_F(Svg, ShapesThatAreNotSeenAreLeftOut) {
   };
   expect_shape("layer", shape + "<g style='fill:none; display: none'><g display='inline'>" + big + "</g></g>",
                "1 shape left out as hidden");
+  expect_shape("inherited", "<g visibility='inherit'>" + shape + "</g>", "");
+  expect_shape("important", shape + "<g style='display: none !important'>" + big + "</g>",
+               "1 shape left out as hidden");
   expect_shape("invisible", "<g visibility='hidden'>" + big + "<g visibility='visible'>" + shape + "</g></g>",
                "1 shape left out as hidden");
   for (const char* kind : {"defs", "symbol", "clipPath", "mask", "marker", "pattern"})
@@ -219,6 +222,8 @@ TEST_F(Svg, DrawingsOfDifferentUnitsAreDoubted) {
   write_drawing("b.svg", "width='2in' viewBox='0 0 50.8 50'", 6);
   write_drawing("c.svg", "width='70' viewBox='0 0 500 500'", 7);
   EXPECT_TRUE(read_folder(folder_.string()).notes.empty());
+  write_drawing("e.svg", "width='100vw' viewBox='0 0 50 50'", 9);
+  EXPECT_EQ(read_folder(folder_.string()).pieces.size(), 4U);
   write_drawing("d.svg", "width='50mm'", 8);
   ASSERT_EQ(read_folder(folder_.string()).notes.size(), 1U);
   EXPECT_NE(read_folder(folder_.string()).notes[0].find("d.svg says that it has 96 dots or units an inch, "),

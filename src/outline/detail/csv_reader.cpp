@@ -200,7 +200,7 @@ class Reader {
       const std::string_view content = trimmed(line, kSeparators);
       if (content.empty()) blank_ = true;
       if (content.empty() || content[0] == '#') continue;
-      add(columns_.first_two() ? content : line, number);  // an empty first cell counts as a column
+      add(columns_.first_two() ? content : line, line, number);  // an empty first cell counts as a column
     }
     if (lines.empty()) throw InputError(path_, "holds no points", kMend);
     if (!are_outlines(lines)) join_lines();
@@ -212,11 +212,12 @@ class Reader {
   bool y_up = true;
 
  private:
-  void add(std::string_view line, std::size_t number) {
+  /// \param whole  the line with what parts cells at its ends
+  void add(std::string_view line, std::string_view whole, std::size_t number) {
     const bool first = !std::exchange(begun_, true);
     const auto plain = with_points(line, blanks_part_);
     const auto point = plain ? parse_point(*plain, columns_) : std::nullopt;
-    if (!point && first && !take_number(line)) return take_names(line);
+    if (!point && first && !take_number(line)) return take_names(whole);
     if (!plain) {
       throw InputError(path_,
                        fmt::format("line {} has commas that may be decimal ones or part columns", number),

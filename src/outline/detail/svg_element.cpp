@@ -28,7 +28,7 @@ std::string_view style_property(std::string_view style, std::string_view name) {
     style.remove_prefix(std::min(style.size(), one.size() + 1));
     const std::size_t colon = one.find(':');
     if (colon != std::string_view::npos && trimmed(one.substr(0, colon), kBlanks) == name)
-      value = trimmed(one.substr(colon + 1), kBlanks);
+      value = trimmed(one.substr(colon + 1, one.find('!', colon) - colon - 1), kBlanks);  // "none !important"
   }
   return value;
 }

@@ -200,7 +200,8 @@ class Reader {
   void enter(const pugi::xml_node& node, Scope& scope) const {
     if (property(node, "display") == "none") scope.displayed = false;
     const std::string visibility = property(node, "visibility");
-    if (!visibility.empty()) scope.visible = visibility == "visible";
+    if (!visibility.empty() && visibility != "inherit")
+      scope.visible = visibility != "hidden" && visibility != "collapse";
     scope.to_page = scope.to_page * transform_of(node, path_);
   }
 
