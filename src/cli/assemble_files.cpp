@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -16,6 +17,7 @@
 #include "core/version.hpp"
 #include "mesh/save.hpp"
 #include "report/assembly_picture.hpp"
+#include "report/fragment_colours.hpp"
 
 namespace rejoin::cli {
 namespace {
@@ -116,11 +118,18 @@ ordered_json constraints_json(const std::vector<std::string>& names, const assem
 std::vector<report::PlacedFragment> placed_fragments(const AssembleInput& input,
                                                      const assembly::Result& result) {
   std::vector<report::PlacedFragment> placed;
+  std::map<std::size_t, std::size_t> number;  // among the placed
   for (std::size_t k = 0; k < input.names.size(); ++k) {
     const assembly::Placement& placement = result.placements[k];
     if (placement.group < 0) continue;
+    number[k] = placed.size();
     placed.push_back({input.names[k], &input.fragments[k].coarse, placement.pose, placement.group});
   }
+  std::vector<std::pair<std::size_t, std::size_t>> joins;
+  joins.reserve(result.joins.size());
+  for (const assembly::Join& join : result.joins) joins.emplace_back(number.at(join.a), number.at(join.b));
+  const std::vector<report::Colour> colours = report::fragment_colours(placed.size(), joins);
+  for (std::size_t k = 0; k < placed.size(); ++k) placed[k].colour = colours[k];
   return placed;
 }
 
@@ -141,6 +150,7 @@ std::string with_names(const std::string& text, const std::vector<std::string>& 
 std::string reason_of(const AssembleInput& input, const assembly::Result& result, std::size_t fragment) {
   const std::string reason = with_names(result.placements[fragment].reason, input.names);
   const std::string missing = store::told(input.remains, input.names[fragment]);
+  if (!store::is_compared(input.remains, input.names[fragment])) return missing;
   return missing.empty() ? reason : reason + "; " + missing;
 }
 

@@ -45,7 +45,7 @@ void draw_names(Image& image, const std::vector<PlacedFragment>& fragments, cons
       draw_text(image, x, y, fmt::format("and {} more", row.size() - k), style);
       return;
     }
-    fill(image, {x, y - 11, 14, 12}, fragment_colour(row[k]));
+    fill(image, {x, y - 11, 14, 12}, fragments[row[k]].colour);
     draw_text(image, x + 22, y, fitted(fragments[row[k]].name, style, kLegend - 50), style);
   }
 }
@@ -56,7 +56,7 @@ void draw_row(Image& image, const std::vector<PlacedFragment>& fragments, const 
     Body body;
     body.mesh = fragments[k].mesh;
     body.pose = fragments[k].pose;
-    body.colour = fragment_colour(k);
+    body.colour = fragments[k].colour;
     bodies.push_back(body);
   }
   const Scene scene(bodies);
@@ -74,16 +74,6 @@ void draw_row(Image& image, const std::vector<PlacedFragment>& fragments, const 
 }
 
 }  // namespace
-
-Colour fragment_colour(std::size_t k) {
-  const double turn = std::fmod(0.08 + 0.6180339887498949 * static_cast<double>(k), 1.0);
-  const double light = k % 2 == 0 ? 0.86 : 0.70;
-  const auto channel = [&](double offset) {
-    const double wave = std::cos(6.283185307179586 * (turn - offset));
-    return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(light * (0.72 + 0.28 * wave), 0.0, 1.0)));
-  };
-  return {channel(0.0), channel(1.0 / 3.0), channel(2.0 / 3.0)};
-}
 
 Image assembly_picture(const std::vector<PlacedFragment>& fragments) {
   const std::vector<Row> rows = rows_of(fragments);

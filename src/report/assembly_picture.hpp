@@ -16,10 +16,8 @@ struct PlacedFragment {
   const mesh::Mesh* mesh;  ///< not owned; must have faces
   Rigid pose;              ///< file coordinates -> common frame
   int group = 0;
+  Colour colour{0};
 };
-
-/// A colour for the k-th fragment: hues a golden angle apart, so that neighbours in number differ most.
-Colour fragment_colour(std::size_t k);
 
 /// The largest groups, at most four, one row each: seen from four sides, each fragment in its colour, and the names.
 /// \pre fragments is not empty

@@ -4,8 +4,8 @@
 
 #include "core/words.hpp"
 #include "mesh/surface.hpp"
-#include "report/assembly_picture.hpp"
 #include "report/canvas.hpp"
+#include "report/fragment_colours.hpp"
 #include "report/numbered_picture.hpp"
 
 namespace rejoin::report {
@@ -26,7 +26,7 @@ Image split_picture(const std::string& title, const std::vector<mesh::Mesh>& pie
   what.title = title;
   what.subtitle = counted(pieces.size(), "piece") + ", largest first";
   what.first = 1;
-  what.colour = [](int part) { return fragment_colour(static_cast<std::size_t>(part)); };
+  what.colour = [](int part) { return list_colour(static_cast<std::size_t>(part)); };
   mesh::Mesh all;
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     const mesh::Mesh surface = surface_of(pieces[k]);

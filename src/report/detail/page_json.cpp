@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/version.hpp"
+#include "report/fragment_colours.hpp"
 
 namespace rejoin::report::detail {
 namespace {
@@ -34,7 +35,29 @@ ordered_json mesh_json(const PackedMesh& mesh) {
           {"index", base64(mesh.index_stream)}};
 }
 
-ordered_json fragment_json(const ReportFragment& fragment, const PackedMesh& mesh) {
+ordered_json colour_json(Colour colour) {
+  return {colour.x / 255.0, colour.y / 255.0, colour.z / 255.0};
+}
+
+/// Those of the placed fragments as in assembly_picture(), where others have none.
+std::vector<Colour> colours_of(const RunReport& report) {
+  std::vector<std::size_t> number(report.fragments.size());
+  std::size_t placed = 0;
+  std::size_t others = 0;
+  for (std::size_t k = 0; k < number.size(); ++k) number[k] = report.fragments[k].pose ? placed++ : others++;
+  std::vector<std::pair<std::size_t, std::size_t>> joins;
+  for (const ReportPair& pair : report.pairs) {
+    if (pair.used && report.fragments[pair.a].pose && report.fragments[pair.b].pose)
+      joins.emplace_back(number[pair.a], number[pair.b]);
+  }
+  const std::vector<Colour> of_placed = fragment_colours(placed, joins);
+  std::vector<Colour> colours;
+  for (std::size_t k = 0; k < number.size(); ++k)
+    colours.push_back(report.fragments[k].pose ? of_placed[number[k]] : list_colour(placed + number[k]));
+  return colours;
+}
+
+ordered_json fragment_json(const ReportFragment& fragment, Colour colour, const PackedMesh& mesh) {
   return {{"name", fragment.name},
           {"path", fragment.path},
           {"faces", fragment.faces},
@@ -42,6 +65,10 @@ ordered_json fragment_json(const ReportFragment& fragment, const PackedMesh& mes
           {"group", fragment.pose ? ordered_json(fragment.group) : ordered_json()},
           {"confidence", fragment.confidence},
           {"reason", fragment.reason},
+          {"colour", colour_json(colour)},
+          {"object_colour",
+           fragment.pose ? colour_json(list_colour(static_cast<std::size_t>(std::max(0, fragment.group))))
+                         : ordered_json()},
           {"pose", fragment.pose ? columns(*fragment.pose) : ordered_json()},
           {"mesh", mesh_json(mesh)}};
 }
@@ -117,8 +144,9 @@ std::string page_json(const PageData& data) {
                          [&](const ReportPair& pair) { return pair.comparison == wanted; });
   };
   ordered_json fragments = ordered_json::array();
+  const std::vector<Colour> colours = colours_of(report);
   for (std::size_t k = 0; k < report.fragments.size(); ++k)
-    fragments.push_back(fragment_json(report.fragments[k], data.meshes[k]));
+    fragments.push_back(fragment_json(report.fragments[k], colours[k], data.meshes[k]));
   ordered_json pairs = ordered_json::array();
   for (const std::size_t k : data.listed) pairs.push_back(pair_json(report.pairs[k], data.pictures[k]));
   ordered_json parameters = ordered_json::array();

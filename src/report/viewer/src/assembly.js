@@ -1,5 +1,5 @@
 // The 3D section: picture, slider, list of fragments, what is chosen.
-import {css, evenColour, gapColour, gradient, listColour, NONE} from './colours.js';
+import {css, evenColour, gapColour, gradient, NONE} from './colours.js';
 import {h, nameElement, replace, shortened, tidy} from './dom.js';
 import {ready} from './geometry.js';
 import {counted, percent, short} from './numbers.js';
@@ -220,8 +220,8 @@ export class Assembly {
     const mode = this.mode.value;
     const {fragments, gap_scale: scale} = this.data;
     const ofPiece = {
-      fragment: (index) => listColour(index),
-      object: (index) => (fragments[index].group === null ? NONE : listColour(fragments[index].group)),
+      fragment: (index) => fragments[index].colour,
+      object: (index) => fragments[index].object_colour ?? NONE,
       confidence: (index) => evenColour(fragments[index].confidence),
     }[mode];
     if (ofPiece) this.stage?.colourPieces(ofPiece);

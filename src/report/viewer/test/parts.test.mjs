@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import {test} from 'node:test';
-import {evenColour, gapColour, listColour, NONE} from '../src/colours.js';
+import {evenColour, gapColour, NONE} from '../src/colours.js';
 import {constraintsText} from '../src/decisions.js';
 import {shortened, tidy} from '../src/dom.js';
 import {ballOf, cross, frameOf, mainAxes, rows, shifts} from '../src/layout.js';
@@ -124,10 +124,6 @@ test('gap colours tell overlap, touch, apart and nothing', () => {
 test('confidence grows with lightness', () => {
   const light = [0, 0.25, 0.5, 0.75, 1].map((share) => evenColour(share).reduce((sum, c, k) => sum + c * [0.2126, 0.7152, 0.0722][k], 0));
   light.slice(1).forEach((value, k) => assert.ok(value > light[k]));
-});
-
-test('neighbours in the list have different colours', () => {
-  for (let k = 0; k < 60; ++k) assert.ok(distance(listColour(k), listColour(k + 1)) > 0.1, `${k}`);
 });
 
 test('the lock file names no host, so that any registry may serve it', () => {
