@@ -33,7 +33,7 @@ void put(std::FILE* stream, const std::string& text) {
 
 }  // namespace
 
-Console::Console() : terminal_(isatty(STDERR_FILENO) == 1) {}
+Console::Console() : terminal_(isatty(STDERR_FILENO) == 1), last_drawn_(std::chrono::steady_clock::now()) {}
 
 Console::~Console() {
   end_progress();
@@ -65,15 +65,21 @@ void Console::detail(std::string_view text) {
 void Console::progress(std::string_view stage, double fraction) {
   constexpr int kWidth = 30;
   constexpr auto kPause = std::chrono::milliseconds(50);
+  constexpr auto kLinePause = std::chrono::minutes(1);  // in a log, which keeps every line
   const auto now = std::chrono::steady_clock::now();
-  if (!terminal_ || quiet || (bar_drawn_ && now - last_drawn_ < kPause)) return;
+  if (quiet || (!terminal_ && !verbose)) return;
+  if ((bar_drawn_ || !terminal_) && now - last_drawn_ < (terminal_ ? kPause : kLinePause)) return;
   const double share = std::clamp(fraction, 0.0, 1.0);
+  last_drawn_ = now;
+  if (!terminal_) {
+    put(stderr, fmt::format("{:3.0f} % {}\n", 100 * share, harmless_line(stage)));
+    return;
+  }
   const int full = static_cast<int>(share * kWidth);
   put(stderr, fmt::format("\r\033[K[{:=<{}}{: <{}}] {:3.0f} % {}", "", full, "", kWidth - full, 100 * share,
                           harmless_line(stage)));
   std::fflush(stderr);
   bar_drawn_ = true;
-  last_drawn_ = now;
 }
 
 void Console::end_progress() {

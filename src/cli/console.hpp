@@ -21,7 +21,7 @@ class Console {
   bool quiet = false;    ///< no results on stdout and no progress; warnings and errors stay
   bool verbose = false;  ///< more on stderr
 
-  /// Looks whether stderr is a terminal; only then progress is shown.
+  /// Looks whether stderr is a terminal; elsewhere progress is a line a minute, for --verbose alone.
   Console();
   ~Console();
   Console(const Console&) = delete;
@@ -39,7 +39,7 @@ class Console {
   /// A line for --verbose.
   void detail(std::string_view text);
 
-  /// Draws the bar.  fraction: 0 .. 1
+  /// Draws the bar, or writes the line that is due.  fraction: 0 .. 1
   void progress(std::string_view stage, double fraction);
 
   /// Takes the bar away before something else is written.

@@ -44,7 +44,7 @@ void require_facets(const char* option, const std::vector<int>& numbers, const m
 std::string pose_text(const Rigid& pose) {
   std::string text = "pose (B's coordinates to A's):\n";
   for (int row = 0; row < 3; ++row) {
-    text += fmt::format("  {:12.8f} {:12.8f} {:12.8f} {:16.10g}\n", pose.rotation[0][row],
+    text += fmt::format("  {:15.12f} {:15.12f} {:15.12f} {:19.15g}\n", pose.rotation[0][row],
                         pose.rotation[1][row], pose.rotation[2][row], pose.translation[row]);
   }
   return text;

@@ -331,6 +331,11 @@ void add_reasons(report::RunReport& report, const std::string& all, const store:
   for (std::size_t k = 0; k < report.fragments.size(); ++k) {
     report::ReportFragment& fragment = report.fragments[k];
     if (fragment.pose || !fragment.reason.empty()) continue;
+    const std::string missing = store::told(remains, fragment.name);
+    if (all.empty() && !store::is_compared(remains, fragment.name)) {
+      fragment.reason = missing;
+      continue;
+    }
     if (!all.empty()) {
       fragment.reason = all;
     } else if (best[k] == nullptr) {
@@ -339,7 +344,6 @@ void add_reasons(report::RunReport& report, const std::string& all, const store:
       fragment.reason = best[k]->verdict == "join" ? "its joints contradict the assembly"
                                                    : "none of its joints is sure enough";
     }
-    const std::string missing = store::told(remains, fragment.name);
     if (!missing.empty()) fragment.reason += "; " + missing;
   }
 }

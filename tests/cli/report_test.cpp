@@ -73,8 +73,7 @@ TEST(Report, ShowsWhatTheAssemblyPlacedAndWhyNotTheRest) {
   EXPECT_EQ(data["fragments"][1]["confidence"], 0.25);
   EXPECT_FALSE(data["fragments"][0]["mesh"].is_null());
   EXPECT_TRUE(data["fragments"][2]["mesh"].is_null());
-  EXPECT_EQ(data["fragments"][2]["reason"],
-            "compared with no other fragment; 2 of its 2 pairs are not compared yet");
+  EXPECT_EQ(data["fragments"][2]["reason"], "none of its 2 pairs is compared yet");
   EXPECT_EQ(data["missing"], 2);
   ASSERT_EQ(data["warnings"].size(), 2U);
   EXPECT_EQ(data["warnings"][0], "2 of 3 pairs are not compared yet; rejoin batch goes on with them");
