@@ -370,25 +370,32 @@ bool Grower::fits(State& state, std::size_t link) {
   return !touching;
 }
 
-/// Two pieces that must not join and would touch if a link put its groups together.  Settled, as the errors of links add up to more
-/// than the distance at which surfaces touch.
+/// Two pieces that must not join and would touch if a link put its groups together.  What is near is settled first, as the errors of
+/// links add up to more than the distance at which surfaces touch.
 std::optional<Grower::Key> Grower::forbidden_touch(const State& state, std::size_t link) const {
   const std::size_t into = state.growth.group[links_[link].a];
   const std::size_t from = state.growth.group[links_[link].b];
-  std::vector<Key> between;
+  if (into == from) return std::nullopt;
+  const Rigid from_to_into = transform(state, link, into);
+  std::vector<Key> near;
   for (const Key& pair : unwanted_) {
-    if (key_of(state.growth.group[pair.first], state.growth.group[pair.second]) == key_of(into, from) &&
-        into != from)
-      between.push_back(pair);
+    const auto [a, b] = pair;
+    if (key_of(state.growth.group[a], state.growth.group[b]) != key_of(into, from)) continue;
+    const Rigid across = state.growth.group[a] == into ? from_to_into : inverse(from_to_into);
+    const Rigid b_to_a = inverse(state.growth.poses[a]) * across * state.growth.poses[b];
+    if (touch_forbidden(pieces_[a], pieces_[b], b_to_a)) return pair;
+    if (are_near(pieces_[a], pieces_[b], b_to_a, 0.0)) near.push_back(pair);
   }
-  if (between.empty()) return std::nullopt;
+  if (near.empty()) return std::nullopt;
   State together = state;
   merge(together, link, 0.0);
   Growth& growth = together.growth;
   settle(growth, together.members.at(growth.group[links_[link].a]));
-  for (const auto& [a, b] : between)
-    if (touch_forbidden(pieces_[a], pieces_[b], inverse(growth.poses[a]) * growth.poses[b])) return Key{a, b};
-  return std::nullopt;
+  const auto touching = std::ranges::find_if(near, [&](const Key& pair) {
+    const auto [a, b] = pair;
+    return touch_forbidden(pieces_[a], pieces_[b], inverse(growth.poses[a]) * growth.poses[b]);
+  });
+  return touching != near.end() ? std::optional(*touching) : std::nullopt;
 }
 
 void Grower::merge(State& state, std::size_t link, double odds) const {
