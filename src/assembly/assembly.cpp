@@ -11,6 +11,7 @@
 
 #include "assembly/complete.hpp"
 #include "assembly/grow.hpp"
+#include "assembly/pairs.hpp"
 #include "assembly/spread.hpp"
 #include "core/parallel.hpp"
 #include "match/verify.hpp"
@@ -37,12 +38,6 @@ std::vector<Piece> make_pieces(const std::vector<match::Fragment>& fragments, co
   pieces.reserve(slots.size());
   for (auto& slot : slots) pieces.push_back(std::move(*slot));
   return pieces;
-}
-
-/// Whether two pieces are one of the pairs, whichever comes first.
-bool among(const std::vector<std::pair<std::size_t, std::size_t>>& pairs, std::size_t a, std::size_t b) {
-  return std::ranges::any_of(
-      pairs, [&](const auto& pair) { return std::minmax(pair.first, pair.second) == std::minmax(a, b); });
 }
 
 /// The given links in an order that does not depend on theirs, and those that follow from them.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assembly/pairs.hpp"
 #include "assembly/witness.hpp"
 #include "core/parallel.hpp"
 
@@ -18,10 +19,6 @@ constexpr double kTogether = 1.0;        // what two unsure joins need together 
 constexpr double kTogetherOdds = -5.0;   // of each, at least
 constexpr double kTogetherWorth = -8.0;  // of both, for the third pair to be asked
 constexpr std::size_t kProposals = 24;   // per two groups
-
-std::pair<std::size_t, std::size_t> key_of(std::size_t a, std::size_t b) {
-  return {std::min(a, b), std::max(a, b)};
-}
 
 }  // namespace
 
@@ -436,88 +433,6 @@ void Grower::merge(State& state, std::size_t link, double odds) const {
     all.insert(all.end(), list.begin(), list.end());
     std::sort(all.begin(), all.end());
     propose(state, key);
-  }
-}
-
-std::size_t Grower::agreeing(const Growth& growth, std::size_t a, std::size_t b) const {
-  const auto found = links_of_.find(key_of(a, b));
-  if (found == links_of_.end() || growth.group[a] != growth.group[b]) return links_.size();
-  for (const std::size_t k : found->second) {
-    const Link& l = links_[k];
-    const Rigid relative = inverse(growth.poses[l.a]) * growth.poses[l.b];
-    if (same_pose(pieces_[l.a], pieces_[l.b], l.pose, relative, options_)) return k;
-  }
-  return links_.size();
-}
-
-std::vector<Touching> Grower::contacts_of(const Growth& growth,
-                                          const std::vector<std::size_t>& members) const {
-  std::vector<Touching> contacts;
-  for (std::size_t x = 0; x < members.size(); ++x) {
-    for (std::size_t y = x + 1; y < members.size(); ++y) {
-      const std::size_t a = members[x];
-      const std::size_t b = members[y];
-      const Rigid b_to_a = inverse(growth.poses[a]) * growth.poses[b];
-      if (std::ranges::find(unwanted_, key_of(a, b)) != unwanted_.end())
-        continue;  // not to be pulled together
-      const std::size_t link = agreeing(growth, a, b);
-      const double least = kContact * std::min(pieces_[a].area(), pieces_[b].area());
-      if (link < links_.size()) {
-        const bool same = links_[link].a == a;
-        contacts.push_back({a, b, same ? links_[link].pose : inverse(links_[link].pose), true});
-      } else if (touch(pieces_[a], pieces_[b], b_to_a).area > least) {
-        contacts.push_back({a, b, b_to_a, false});
-      }
-    }
-  }
-  return contacts;
-}
-
-/// Twice, as pieces that come to touch by the first alignment take part in the second.
-void Grower::settle(Growth& growth, const std::vector<std::size_t>& members) const {
-  std::vector<std::size_t> fixed;
-  for (const auto& [piece, pose] : options_.constraints.pinned) {
-    if (std::find(members.begin(), members.end(), piece) != members.end()) fixed.push_back(piece);
-  }
-  for (int round = 0; round < 2; ++round) {
-    spread_error(pieces_, members, contacts_of(growth, members), fixed, growth.poses);
-  }
-}
-
-std::vector<std::size_t> Grower::unsatisfied(const Growth& growth) const {
-  std::vector<std::size_t> result;
-  for (const auto& [pair, list] : links_of_) {
-    if (odds_[list.front()] < log_odds(options_.sure)) continue;
-    if (agreeing(growth, pair.first, pair.second) == links_.size()) result.push_back(list.front());
-  }
-  std::stable_sort(result.begin(), result.end(),
-                   [&](std::size_t x, std::size_t y) { return odds_[x] > odds_[y]; });
-  return result;
-}
-
-void Grower::sum_up(Growth& growth) const {
-  const std::set<std::size_t> used(growth.used.begin(), growth.used.end());
-  growth.evidence = growth.vouched;
-  for (const auto& [pair, list] : links_of_) {
-    if (growth.group[pair.first] != growth.group[pair.second]) continue;
-    const std::size_t link = agreeing(growth, pair.first, pair.second);
-    if (link < links_.size()) {
-      growth.evidence +=
-          used.count(link) != 0 ? odds_[link] : std::max(0.0, odds_[link] + options_.loop_weight);
-    } else if (odds_[list.front()] >= log_odds(options_.sure)) {
-      growth.evidence -= odds_[list.front()];
-    }
-  }
-}
-
-/// Strong links that were never tried because others contradict them.
-void Grower::tell_contradictions(State& state) const {
-  for (const auto& [key, list] : state.proposals) {
-    for (const Proposal& p : list) {
-      if (p.against == links_.size() || odds_[p.link] < log_odds(options_.sure)) continue;
-      const Link& against = links_[p.against];
-      state.growth.rejected.push_back({p.link, Rejection::Why::Contradiction, against.a, against.b});
-    }
   }
 }
 

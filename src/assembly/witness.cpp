@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assembly/pairs.hpp"
 #include "assembly/spread.hpp"
 #include "match/verify.hpp"
 
@@ -54,9 +55,7 @@ class Meeting {
   }
 
   bool is_forbidden(std::size_t a, std::size_t b) const {
-    return std::ranges::any_of(options_.constraints.must_not_join, [&](const auto& pair) {
-      return std::minmax(pair.first, pair.second) == std::minmax(a, b);
-    });
+    return among(options_.constraints.must_not_join, a, b);
   }
 
   /// Whether any two that must not join touch.
