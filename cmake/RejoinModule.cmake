@@ -1,7 +1,7 @@
 # rejoin_module(NAME SOURCES ... [PUBLIC ...] [PRIVATE ...])
 #   A static library rejoin_NAME, alias rejoin::NAME, with the project's warnings and number rules.
 # rejoin_test(NAME SOURCES ... LIBS ... [LABELS ...])
-#   A GoogleTest program; each TEST becomes a CTest entry.  LABELS default to "fast".
+#   A GoogleTest program; each TEST becomes a CTest entry (with REJOIN_FAST_TESTS each fast program).  LABELS default to "fast".
 
 add_library(rejoin_warnings INTERFACE)
 target_compile_options(rejoin_warnings INTERFACE -Wall -Wextra -Wpedantic -ffp-contract=off
@@ -23,5 +23,14 @@ function(rejoin_test name)
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} GTest::gtest GTest::gtest_main rejoin_warnings)
   target_compile_definitions(${name} PRIVATE REJOIN_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
-  gtest_discover_tests(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 600 DISCOVERY_TIMEOUT 120)
+  separate_arguments(flags UNIX_COMMAND "${REJOIN_TEST_FLAGS}")
+  target_compile_options(${name} PRIVATE ${flags})
+  if(REJOIN_FAST_TESTS AND "fast" IN_LIST ARG_LABELS)
+    add_test(NAME ${name} COMMAND ${name})
+    set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 1800)
+  elseif(REJOIN_FAST_TESTS)
+    set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
+  else()
+    gtest_discover_tests(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 600 DISCOVERY_TIMEOUT 120)
+  endif()
 endfunction()
