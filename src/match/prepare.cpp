@@ -84,11 +84,21 @@ void doubt_table(Fragment& fragment) {
 
 }  // namespace
 
+double samples_spacing(const Fragment& a, const Fragment& b) {
+  constexpr double kUnlike =
+      3.0;  // what the small piece's patches of relief bear, at which nothing is sampled anew
+  constexpr double kDenser = 4.0;  // at most: sixteen times the samples
+  const auto [fine, coarse] = std::minmax(a.facets.samples.spacing, b.facets.samples.spacing);
+  const bool noisy = a.noise_left > 0 || b.noise_left > 0;
+  const bool thin = a.facets.wall_thickness > 0 || b.facets.wall_thickness > 0;
+  return noisy || thin ? coarse : std::clamp(kUnlike * fine, coarse / kDenser, coarse);
+}
+
 double contact_tolerance(const Fragment& a, const Fragment& b) {
   constexpr double kNoiseInGaps = 3.0;  // deviations of gaps by what is left of noise that still touch
   const double wall = thinner_wall(a, b);
-  const double spacing = std::max(a.facets.samples.spacing, b.facets.samples.spacing);
-  return std::max({wall > 0 ? 0.05 * wall : 0.15 * spacing, 0.3 * std::max(a.resolution, b.resolution),
+  return std::max({wall > 0 ? 0.05 * wall : 0.15 * samples_spacing(a, b),
+                   0.3 * std::max(a.resolution, b.resolution),
                    kNoiseInGaps * std::hypot(a.noise_left, b.noise_left)});
 }
 

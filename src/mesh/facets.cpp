@@ -21,7 +21,6 @@ namespace rejoin::mesh {
 namespace {
 
 constexpr std::size_t kSamples = 12000;
-constexpr double kSmoothRadius = 2.0;   // spacings: about 12 neighbours
 constexpr double kQuadricRadius = 4.0;  // spacings: about 50 neighbours for 6 unknowns
 constexpr float kWallLow = 0.5F;        // of the wall thickness
 constexpr float kWallHigh = 1.8F;
@@ -211,7 +210,7 @@ struct Look {
 /// Samples the surface; all of it counts as fracture at first.
 Look look(const Mesh& mesh, std::size_t samples, Segmentation& s) {
   s.samples = sample_surface(mesh, samples);
-  Lists near = detail::neighbours_within(s.samples.points, kSmoothRadius * s.samples.spacing);
+  Lists near = detail::neighbours_within(s.samples.points, detail::kNormalRadius * s.samples.spacing);
   s.normals = detail::mean_normals(s.samples.normals, near, 0.0F);
   s.surface.assign(s.samples.size(), Surface::Fracture);
   InwardRays rays = cast_inwards(mesh, s.samples, s.normals);

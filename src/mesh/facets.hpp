@@ -58,6 +58,9 @@ struct Segmentation : Cut {
 Segmentation segment(const Mesh& mesh, double size);
 Segmentation segment(const Mesh& mesh);
 
+/// The same facets on samples with another spacing, mesh units: each sample is of the surface and the facet of the nearest one that looks the same way.
+Segmentation denser(const Segmentation& segmentation, const Mesh& mesh, double spacing);
+
 /// Parts of facets: each is halved across its longest extent, and so are the halves.
 /// \param cut  of the segmentation
 /// \param facets  those of `cut` that are parted, indices

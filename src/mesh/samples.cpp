@@ -8,6 +8,9 @@
 namespace rejoin::mesh {
 namespace {
 
+constexpr double kCellsOfPlane =
+    1.5;  // of the grid that a plane cuts for every cell's face of area that it has, about
+
 struct Cell {
   glm::dvec3 sum{0.0};
   int count = 0;
@@ -74,8 +77,7 @@ Samples sample_surface(const Mesh& mesh, std::size_t count) {
   Samples samples;
   const double area = surface_area(mesh);
   const Box box = bounds(mesh);
-  // A plane cuts about 1.5 cells of the grid for every cell's face of area that it has.
-  samples.spacing = std::sqrt(1.5 * area / static_cast<double>(std::max<std::size_t>(count, 1)));
+  samples.spacing = std::sqrt(kCellsOfPlane * area / static_cast<double>(std::max<std::size_t>(count, 1)));
   const auto spacing = static_cast<float>(samples.spacing);
   const glm::vec3 low = box.low - glm::vec3(spacing);
   const auto darts = throw_darts(mesh, 6.0 / (samples.spacing * samples.spacing), low, spacing);
@@ -108,6 +110,10 @@ Samples sample_surface(const Mesh& mesh, std::size_t count) {
     samples.faces.push_back(cell.face);
   }
   return samples;
+}
+
+std::size_t count_at(const Mesh& mesh, double spacing) {
+  return static_cast<std::size_t>(std::ceil(kCellsOfPlane * surface_area(mesh) / (spacing * spacing)));
 }
 
 }  // namespace rejoin::mesh

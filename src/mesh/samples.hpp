@@ -22,4 +22,7 @@ struct Samples {
 /// points; the spacing follows from the surface's area \pre the mesh has faces
 Samples sample_surface(const Mesh& mesh, std::size_t count);
 
+/// The count for which sample_surface() has this spacing, mesh units.
+std::size_t count_at(const Mesh& mesh, double spacing);
+
 }  // namespace rejoin::mesh

@@ -305,5 +305,25 @@ TEST(Facets, EveryFaceOfASideBelongsToItsFacet) {
   EXPECT_GT(right, facets.size() * 95 / 100);
 }
 
+TEST(Denser, KeepsFacetsAndSurfacesOnMoreSamples) {
+  const Mesh mesh = box({40, 30, 20}, 20, flat);
+  const Segmentation few = segment(mesh);
+  const Segmentation many = denser(few, mesh, 0.5 * few.samples.spacing);
+  EXPECT_NEAR(many.samples.spacing, 0.5 * few.samples.spacing, 0.01 * few.samples.spacing);
+  EXPECT_GT(many.samples.size(), 3 * few.samples.size());
+  ASSERT_EQ(many.facets.size(), few.facets.size());
+  ASSERT_EQ(many.facet_of_sample.size(), many.samples.size());
+  ASSERT_EQ(many.surface.size(), many.samples.size());
+  std::size_t strangers = 0;  // on another side of the box than their facet
+  for (std::size_t i = 0; i < many.samples.size(); ++i) {
+    const int facet = many.facet_of_sample[i];
+    if (facet < 0) continue;
+    const glm::vec3 side(many.facets[static_cast<std::size_t>(facet)].normal);
+    if (glm::dot(side, many.samples.normals[i]) < 0.7F) ++strangers;
+  }
+  EXPECT_LT(strangers, many.samples.size() / 50);
+  EXPECT_NEAR(many.sample_area * static_cast<double>(many.samples.size()), surface_area(mesh), 1.0);
+}
+
 }  // namespace
 }  // namespace rejoin::mesh

@@ -12,8 +12,7 @@ constexpr double kTableCell = 2.0;      // spacings: side of the cells of tables
 constexpr double kTableReach = 20.0;    // tolerances: how far a quick alignment looks
 constexpr double kWallTableCell = 3.0;  // the same for walls, which are smooth
 
-Side side_of(const Fragment& fragment, double edge_radius) {
-  const auto& s = fragment.facets;
+Side side_of(const mesh::Segmentation& s, double edge_radius) {
   Side side;
   side.sample_area = s.sample_area;
   side.body.points = s.samples.points;
@@ -61,19 +60,27 @@ JointLengths lengths_of(const Fragment& a, const Fragment& b) {
   const double scan = std::max(a.resolution, b.resolution);
   JointLengths l;
   l.thickness = thinner_wall(a, b);
-  l.spacing = std::max(a.facets.samples.spacing, b.facets.samples.spacing);
+  l.spacing = samples_spacing(a, b);
   l.tolerance = contact_tolerance(a, b);
   l.noise = 0.05 * scan;
   l.patch = std::max({0.5 * l.thickness, 2.5 * l.spacing, 2.5 * scan});
   return l;
 }
 
+/// With samples as dense as they are to be.
+std::shared_ptr<const Side> side_of(const Fragment& fragment, const JointLengths& lengths) {
+  const double edge = std::max(0.2 * lengths.thickness, 1.2 * lengths.spacing);
+  if (fragment.facets.samples.spacing <= lengths.spacing)
+    return std::make_shared<const Side>(side_of(fragment.facets, edge));
+  return std::make_shared<const Side>(
+      side_of(mesh::denser(fragment.facets, fragment.surface, lengths.spacing), edge));
+}
+
 }  // namespace
 
 JointSides::JointSides(const Fragment& a, const Fragment& b) : lengths_(lengths_of(a, b)) {
-  const double edge = std::max(0.2 * lengths_.thickness, 1.2 * lengths_.spacing);
-  a_ = std::make_shared<const Side>(side_of(a, edge));
-  b_ = std::make_shared<const Side>(side_of(b, edge));
+  a_ = side_of(a, lengths_);
+  b_ = side_of(b, lengths_);
 }
 
 std::unique_ptr<const JointSides> JointSides::exchanged() const {

@@ -10,6 +10,9 @@ namespace rejoin::mesh::detail {
 
 using Lists = std::vector<std::vector<std::uint32_t>>;
 
+inline constexpr double kNormalRadius =
+    2.0;  ///< samples' spacings over which their normals are averaged: about 12 neighbours
+
 /// Of every point the points closer than the radius, itself among them.
 Lists neighbours_within(std::span<const glm::vec3> points, double radius);
 
