@@ -158,7 +158,10 @@ TEST(Sweep, ItsCostHasALimitHoweverUnlikeTheSizesAre) {
         half.faces.emplace_back(v + 1, v + kCells + 1, v + kCells + 2);
       }
     }
-    return sweep(small, prepare("large", half, Context{}), {}, Context{}).evaluations;
+    SweepOptions largest_facets;
+    largest_facets.facets_a = {0};
+    largest_facets.facets_b = {0};
+    return sweep(small, prepare("large", half, Context{}), largest_facets, Context{}).evaluations;
   };
   EXPECT_LT(evaluations(100), 2 * evaluations(50));
 }
