@@ -1,43 +1,23 @@
 #include <algorithm>
 
-#include "core/parallel.hpp"
 #include "mesh/detail/mean_normals.hpp"
 #include "mesh/facets.hpp"
-#include "mesh/point_index.hpp"
 
 namespace rejoin::mesh {
 namespace {
 
-/// Of every sample the nearest of other samples that looks the same way; of none that does, the nearest.
-std::vector<std::uint32_t> alike(const Segmentation& from, const Samples& samples,
-                                 const std::vector<glm::vec3>& normals) {
-  constexpr std::size_t kLooks = 4;
-  const PointIndex index(from.samples.points);
-  std::vector<std::uint32_t> found(samples.size());
-  parallel_for(found.size(), 512, [&](std::size_t first, std::size_t last) {
-    std::vector<std::uint32_t> near;
-    for (std::size_t i = first; i < last; ++i) {
-      index.nearest(samples.points[i], kLooks, near);
-      const auto same = std::ranges::find_if(
-          near, [&](std::uint32_t k) { return glm::dot(from.normals[k], normals[i]) >= 0.0F; });
-      found[i] = same != near.end() ? *same : near.front();
-    }
-  });
-  return found;
-}
-
 template <typename T>
-std::vector<T> taken(const std::vector<T>& values, const std::vector<std::uint32_t>& from) {
+std::vector<T> taken(const std::vector<T>& values, const std::vector<int>& from, T of_none) {
   if (values.empty()) return {};
   std::vector<T> out;
   out.reserve(from.size());
-  for (const auto i : from) out.push_back(values[i]);
+  for (const int i : from) out.push_back(i >= 0 ? values[static_cast<std::size_t>(i)] : of_none);
   return out;
 }
 
-void take_facets(const Cut& cut, const std::vector<std::uint32_t>& from, Cut& into) {
+void take_facets(const Cut& cut, const std::vector<int>& from, Cut& into) {
   into.facets = cut.facets;
-  into.facet_of_sample = taken(cut.facet_of_sample, from);
+  into.facet_of_sample = taken(cut.facet_of_sample, from, -1);
   for (Facet& facet : into.facets) facet.samples.clear();
   for (std::uint32_t i = 0; i < into.facet_of_sample.size(); ++i) {
     const int facet = into.facet_of_sample[i];
@@ -55,10 +35,10 @@ Segmentation denser(const Segmentation& segmentation, const Mesh& mesh, double s
       detail::neighbours_within(s.samples.points, detail::kNormalRadius * s.samples.spacing), 0.0F);
   s.wall_thickness = segmentation.wall_thickness;
   s.sample_area = surface_area(mesh) / static_cast<double>(std::max<std::size_t>(1, s.samples.size()));
-  const std::vector<std::uint32_t> from = alike(segmentation, s.samples, s.normals);
-  s.surface = taken(segmentation.surface, from);
-  s.roughness = taken(segmentation.roughness, from);
-  s.backed = taken(segmentation.backed, from);
+  const std::vector<int> from = nearest_alike(segmentation, s.samples.points, s.normals);
+  s.surface = taken(segmentation.surface, from, Surface::Fracture);
+  s.roughness = taken(segmentation.roughness, from, 0.0F);
+  s.backed = taken(segmentation.backed, from, false);
   take_facets(segmentation, from, s);
   take_facets(segmentation.creased, from, s.creased);
   return s;

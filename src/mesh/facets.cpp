@@ -301,24 +301,31 @@ Segmentation segment(const Mesh& mesh, double size) {
   return s;
 }
 
-std::vector<int> sample_of_faces(const Segmentation& segmentation, const Mesh& mesh) {
+std::vector<int> nearest_alike(const Segmentation& segmentation, const std::vector<glm::vec3>& points,
+                               const std::vector<glm::vec3>& normals) {
+  constexpr std::size_t kLooks = 4;
   const PointIndex index(segmentation.samples.points);
-  const auto normals = face_normals(mesh);
-  std::vector<int> samples(mesh.faces.size(), -1);
-  parallel_for(mesh.faces.size(), 512, [&](std::size_t first, std::size_t last) {
+  std::vector<int> samples(points.size(), -1);
+  parallel_for(points.size(), 512, [&](std::size_t first, std::size_t last) {
     std::vector<std::uint32_t> near;
-    for (std::size_t f = first; f < last; ++f) {
-      const glm::uvec3 face = mesh.faces[f];
-      const glm::vec3 middle = (mesh.vertices[face.x] + mesh.vertices[face.y] + mesh.vertices[face.z]) / 3.0F;
-      index.nearest(middle, 4, near);
+    for (std::size_t k = first; k < last; ++k) {
+      index.nearest(points[k], kLooks, near);
       for (const auto i : near) {
-        if (glm::dot(segmentation.normals[i], normals[f]) < 0.0F) continue;
-        samples[f] = static_cast<int>(i);
+        if (glm::dot(segmentation.normals[i], normals[k]) < 0.0F) continue;
+        samples[k] = static_cast<int>(i);
         break;
       }
     }
   });
   return samples;
+}
+
+std::vector<int> sample_of_faces(const Segmentation& segmentation, const Mesh& mesh) {
+  std::vector<glm::vec3> middles;
+  middles.reserve(mesh.faces.size());
+  for (const glm::uvec3& face : mesh.faces)
+    middles.push_back((mesh.vertices[face.x] + mesh.vertices[face.y] + mesh.vertices[face.z]) / 3.0F);
+  return nearest_alike(segmentation, middles, face_normals(mesh));
 }
 
 std::vector<int> facet_of_faces(const Cut& cut, std::vector<int> sample_of_face) {

@@ -58,6 +58,10 @@ struct Segmentation : Cut {
 Segmentation segment(const Mesh& mesh, double size);
 Segmentation segment(const Mesh& mesh);
 
+/// For every point with a normal the nearest sample that looks the same way, of the four nearest, or -1.
+std::vector<int> nearest_alike(const Segmentation& segmentation, const std::vector<glm::vec3>& points,
+                               const std::vector<glm::vec3>& normals);
+
 /// The same facets on samples with another spacing, mesh units: each sample is of the surface and the facet of the nearest one that looks the same way.
 Segmentation denser(const Segmentation& segmentation, const Mesh& mesh, double spacing);
 
