@@ -24,14 +24,31 @@ constexpr double kNoisy = 0.1;        // of the points' spacing: what is left of
 constexpr double kShapeless = 0.25;   // of the points' spacing: shape between them that is no noise
 constexpr double kFromOneSide = 0.5;  // share of a surface without anything behind it
 
-/// Of equilateral triangles as large as the surface's are on average.
+/// Faces of the breaks; their walls may have fewer.
+mesh::Mesh broken_surface(const Fragment& fragment) {
+  mesh::Mesh broken;
+  broken.vertices = fragment.surface.vertices;
+  const std::vector<int> samples = mesh::sample_of_faces(fragment.facets, fragment.surface);
+  for (std::size_t f = 0; f < samples.size(); ++f) {
+    if (samples[f] < 0) continue;
+    const auto sample = static_cast<std::size_t>(samples[f]);
+    if (fragment.facets.surface[sample] == mesh::Surface::Fracture)
+      broken.faces.push_back(fragment.surface.faces[f]);
+  }
+  return broken;
+}
+
+/// Of equilateral triangles as large as the surface's are on average; 0 without faces.
 double mean_edge(const mesh::Mesh& surface) {
+  if (surface.faces.empty()) return 0.0;
   const double area = mesh::surface_area(surface) / static_cast<double>(surface.faces.size());
   return std::sqrt(4.0 / std::sqrt(3.0) * area);
 }
 
 void doubt_coarse_walls(Fragment& fragment) {
-  const double across = fragment.facets.wall_thickness / mean_edge(fragment.surface);
+  if (fragment.facets.wall_thickness <= 0) return;
+  const double edge = mean_edge(broken_surface(fragment));
+  const double across = edge > 0 ? fragment.facets.wall_thickness / edge : 0.0;
   if (across <= 0.0 || across >= kEdgesAcross) return;
   fragment.warnings.push_back(
       fmt::format("{}: its mesh has {:.2f} edges across the wall ({:.3g} thick); joins are hardly sure with "

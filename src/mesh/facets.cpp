@@ -35,7 +35,11 @@ constexpr float kStripCone = 28.0F;   // the same: a strip ends where the break 
 constexpr double kStripOfSize =
     0.125;  // of the piece: the break of a thicker wall is as wide as a solid's side
 constexpr double kSamplesPerWall = 7.0;  // across a sherd's fracture strip
-constexpr double kMostSamples = 60000.0;
+constexpr double kMostSamples = 240000.0;
+constexpr std::size_t kFewest = 20;  // samples of a facet; more are
+constexpr std::size_t kOfAll = 300;  // one of so many of all, or one
+constexpr std::size_t kOfFracture =
+    32;  // of so many of the broken ones where those are few, as on a large plate
 constexpr double kOpen =
     0.05;  // share of the rays inwards that meet nothing, of an open scan; closed ones have 0.003
 constexpr double kWideOfSize = 0.25;  // of the piece: breaks of an open scan are narrower
@@ -251,7 +255,8 @@ Lists classify(const Mesh& mesh, double size, Segmentation& s) {
 namespace detail {
 
 std::size_t smallest_facet(const Segmentation& s) {
-  return std::max<std::size_t>(20, s.samples.size() / 300);
+  const auto fracture = static_cast<std::size_t>(std::ranges::count(s.surface, Surface::Fracture));
+  return std::max(kFewest, std::min(s.samples.size() / kOfAll, fracture / kOfFracture));
 }
 
 Cut cut_into(const Segmentation& s, std::vector<std::vector<std::uint32_t>> members) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "../mesh/facet_shapes.hpp"
 #include "core/parallel.hpp"
 #include "core/random.hpp"
 #include "mesh/load.hpp"
@@ -38,6 +39,15 @@ TEST(Prepare, TellsOfAMeshTooCoarseForItsWall) {
   const Fragment coarse = prepare("coarse", mesh::simplify(scan, 2000), Context{});
   ASSERT_EQ(coarse.warnings.size(), 1U);
   EXPECT_NE(coarse.warnings[0].find("coarse: its mesh has "), std::string::npos) << coarse.warnings[0];
+}
+
+TEST(Prepare, ExpectsFineEdgesOfBreaksAlone) {
+  // Triangles of 2.6 mm on the sides, of 0.8 mm on the breaks, five of them across.
+  mesh::Mesh plate = mesh::test::box({60, 40, 4}, 20, mesh::test::flat);
+  for (glm::vec3& p : plate.vertices) p.z += 0.004F * (p.x - 30.0F) * (p.x - 30.0F);  // or it is a table's
+  const Fragment fragment = prepare("plate", plate, Context{});
+  ASSERT_NEAR(fragment.facets.wall_thickness, 4.0, 0.1);
+  EXPECT_TRUE(fragment.warnings.empty()) << fragment.warnings[0];
 }
 
 /// Share of the samples that are classed as the nearest ones of another scan of the same piece are.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -170,6 +171,28 @@ TEST(Facets, ShellsFractureSurfaceIsItsFourNarrowSides) {
   EXPECT_EQ(fracture, 4);
   EXPECT_NEAR(area, truth,
               0.25 * truth);  // a row of samples at either edge of a 5 mm strip may go either way
+}
+
+TEST(Facets, CracksOfALargeThinPlateAreFacets) {
+  // A zigzag crack of seven legs, 50 mm along the plate and 30 to and fro: each is a four hundredth of the plate's surface.
+  Mesh plate = box({350, 175, 4}, 70, flat);
+  const auto crack = [](float x) { return 30.0F * std::abs(std::remainder(x, 100.0F)) / 50.0F; };
+  for (glm::vec3& p : plate.vertices) p.y += crack(p.x) * (1.0F - p.y / 175.0F);
+  const Segmentation s = segment(plate);
+  ASSERT_NEAR(s.wall_thickness, 4.0, 0.1);
+  const double across = s.wall_thickness / s.samples.spacing;
+  EXPECT_GT(across, 4.0) << "samples across a crack";
+  const double slope = 30.0 / 50.0;
+  for (int leg = 0; leg < 7; ++leg) {
+    const double up = leg % 2 == 0 ? slope : -slope;
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(up, -1.0, 0.0));
+    const glm::dvec3 middle(25.0 + 50.0 * leg, 15.0, 2.0);
+    const auto its = std::ranges::count_if(s.facets, [&](const Facet& facet) {
+      return facet.fracture && glm::dot(facet.normal, normal) > std::cos(5.0 * kPi / 180) &&
+             glm::distance(facet.centre, middle) < 5.0;
+    });
+    EXPECT_EQ(its, 1) << "leg " << leg;
+  }
 }
 
 /// Share of the samples that `among` chooses which are of this class.
