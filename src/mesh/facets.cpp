@@ -6,6 +6,7 @@
 #include <numeric>
 #include <queue>
 
+#include "core/median.hpp"
 #include "core/parallel.hpp"
 #include "mesh/detail/creases.hpp"
 #include "mesh/detail/facet_table.hpp"
@@ -24,10 +25,14 @@ constexpr std::size_t kSamples = 12000;
 constexpr double kQuadricRadius = 4.0;  // spacings: about 50 neighbours for 6 unknowns
 constexpr float kWallLow = 0.5F;        // of the wall thickness
 constexpr float kWallHigh = 1.8F;
-constexpr float kWallSquare = 0.95F;  // the opposite wall may lean by 18 degrees
-constexpr double kVoteReach = 1.0;    // wall thicknesses within which samples vote on each other,
-constexpr float kVoteLean = 0.95F;    // if their normals differ by at most 18 degrees
-constexpr float kVoteLevel = 0.1F;    // and they lie within that of each other's plane
+constexpr float kWallSquare = 0.95F;   // the opposite wall may lean by 18 degrees
+constexpr float kThickSquare = 0.75F;  // walls much thicker than the others may lean by 41 degrees,
+constexpr double kThicker = 1.3;       // have that of the wall thickness at least,
+constexpr double kThickest = 6.0;      // that at most,
+constexpr double kWider = 1.2;         // and are that much wider than thick
+constexpr double kVoteReach = 1.0;     // wall thicknesses within which samples vote on each other,
+constexpr float kVoteLean = 0.95F;     // if their normals differ by at most 18 degrees
+constexpr float kVoteLevel = 0.1F;     // and they lie within that of each other's plane
 constexpr std::size_t kVoters = 6;  // every so many samples have a vote: some twenty-five are asked each time
 constexpr int kVotes = 8;           // at most
 constexpr double kStripRadius = 0.7;  // of the wall thickness
@@ -135,10 +140,68 @@ std::vector<glm::vec3> normals_over(const std::vector<glm::vec3>& normals, const
   return means;
 }
 
-/// Wall points see the opposite wall, parallel to theirs, or lie on a wide facet of an open scan; then every point takes the vote of its
-/// surroundings up to the next edge until none changes.  Where a break runs askew, the wall behind it counts as a break, too.
+/// Distance across a facet: that of a strip's sides, or three quarters of a disc's diameter.
+double width_of(const Segmentation& s, const std::vector<std::uint32_t>& facet) {
+  std::vector<bool> inside(s.samples.size(), false);
+  for (const auto i : facet) inside[i] = true;
+  std::vector<glm::vec3> outside;
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    if (!inside[i]) outside.push_back(s.samples.points[i]);
+  }
+  const PointIndex index(outside);
+  std::vector<float> inwards;
+  for (const auto i : facet) {
+    if (const auto nearest = index.nearest(s.samples.points[i])) inwards.push_back(nearest->second);
+  }
+  constexpr double kInner = 0.9;
+  return inwards.empty() ? 0.0 : 2.0 * quantile(inwards, kInner) / kInner;
+}
+
+/// Adds the walls of a vessel's foot and the like, much thicker than its others: facets that are wider than the piece is thick there.  The
+/// sides of a sherd's breaks are farther from each other than they are wide.
+/// \return whether there are such
+bool add_thick_walls(Segmentation& s, const InwardRays& rays, const Lists& near) {
+  const detail::Ground ground{s.samples.points, s.normals, s.surface, near, s.samples.spacing};
+  bool some = false;
+  for (const auto& facet : detail::grow_facets(ground, detail::kCone, detail::smallest_facet(s))) {
+    if (s.surface[facet.front()] != Surface::Fracture) continue;
+    std::vector<float> square;
+    std::vector<float> thickness;
+    for (const auto i : facet) {
+      square.push_back(rays.square[i]);
+      thickness.push_back(rays.length[i]);
+    }
+    const double middle = median(thickness) / s.wall_thickness;
+    if (median(square) < kThickSquare || middle < kThicker || middle > kThickest) continue;
+    if (width_of(s, facet) < kWider * middle * s.wall_thickness) continue;
+    for (const auto i : facet) s.surface[i] = Surface::Original;
+    some = true;
+  }
+  return some;
+}
+
+/// Until none changes, every point takes the vote of its surroundings up to the next edge.
+void vote(std::vector<Surface>& surface, const Lists& voters) {
+  for (int round = 0; round < kVotes; ++round) {
+    std::vector<Surface> voted = surface;
+    parallel_for(voted.size(), 1024, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        const auto fracture = static_cast<std::size_t>(std::ranges::count_if(
+            voters[i], [&](std::uint32_t k) { return surface[k] == Surface::Fracture; }));
+        if (2 * fracture != voters[i].size())
+          voted[i] = 2 * fracture > voters[i].size() ? Surface::Fracture : Surface::Original;
+      }
+    });
+    if (voted == surface) break;
+    surface = std::move(voted);
+  }
+}
+
+/// Wall points see the opposite wall, parallel to theirs, or lie on a wide facet of an open scan; then they vote.  Where a break runs askew,
+/// the wall behind it counts as a break, too.
 /// \param wide  of an open scan, per sample: on a facet too wide for a break; else empty
-void classify_thin(Segmentation& s, const InwardRays& rays, const std::vector<bool>& wide) {
+void classify_thin(Segmentation& s, const InwardRays& rays, const Lists& near,
+                   const std::vector<bool>& wide) {
   const auto t = static_cast<float>(s.wall_thickness);
   const Lists voters = voters_of(s);
   const std::vector<glm::vec3> normals = normals_over(s.normals, voters);
@@ -154,19 +217,8 @@ void classify_thin(Segmentation& s, const InwardRays& rays, const std::vector<bo
     for (std::size_t i = first; i < last; ++i)
       s.surface[i] = is_wall(i) ? Surface::Original : Surface::Fracture;
   });
-  for (int round = 0; round < kVotes; ++round) {
-    std::vector<Surface> voted = s.surface;
-    parallel_for(voted.size(), 1024, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) {
-        const auto fracture = static_cast<std::size_t>(std::ranges::count_if(
-            voters[i], [&](std::uint32_t k) { return s.surface[k] == Surface::Fracture; }));
-        if (2 * fracture != voters[i].size())
-          voted[i] = 2 * fracture > voters[i].size() ? Surface::Fracture : Surface::Original;
-      }
-    });
-    if (voted == s.surface) break;
-    s.surface = std::move(voted);
-  }
+  vote(s.surface, voters);
+  if (add_thick_walls(s, rays, near)) vote(s.surface, voters);
 }
 
 void measure(Facet& facet, const Segmentation& s) {
@@ -246,7 +298,7 @@ Lists classify(const Mesh& mesh, double size, Segmentation& s) {
   }
   std::vector<bool> wide;
   if (open) wide = open_walls(mesh, s, seen.near, kWideWalls * s.wall_thickness).wall;
-  classify_thin(s, seen.rays, wide);
+  classify_thin(s, seen.rays, seen.near, wide);
   return std::move(seen.near);
 }
 

@@ -225,6 +225,24 @@ TEST(Facets, BreakThatRunsAskewThroughAWallIsNoWall) {
             0.97);
 }
 
+TEST(Facets, WallThatThickensIsNoBreak) {
+  // As of a vessel's foot: 6 thick up to a half of the plate, 16 in its last third.
+  Mesh plate = box({80, 60, 6}, 80, flat);
+  const auto thickness = [](float x) {
+    const float t = std::clamp((x - 35.0F) / 20.0F, 0.0F, 1.0F);
+    return 6.0F + 10.0F * t * t * (3.0F - 2.0F * t);
+  };
+  for (glm::vec3& p : plate.vertices) p.z *= thickness(p.x) / 6.0F;
+  const Segmentation s = segment(plate);
+  ASSERT_NEAR(s.wall_thickness, 6.0, 0.3);
+  const auto off_ends = [](const glm::vec3& p) { return std::min({p.x, 80.0F - p.x, p.y, 60.0F - p.y}); };
+  const auto off_walls = [&](const glm::vec3& p) { return std::min(p.z, thickness(p.x) - p.z); };
+  EXPECT_GT(share_of(s, Surface::Original, [&](const glm::vec3& p) { return off_ends(p) > 2.0F; }), 0.99);
+  EXPECT_GT(share_of(s, Surface::Fracture,
+                     [&](const glm::vec3& p) { return off_ends(p) < 0.01F && off_walls(p) > 1.0F; }),
+            0.97);
+}
+
 TEST(Facets, WallsOfANoisyScanAreWalls) {
   Mesh plate = box({80, 60, 6}, 80, flat);
   Random random(5, 0);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/components.hpp"
+#include "core/median.hpp"
 #include "mesh/detail/creases.hpp"
 #include "mesh/point_index.hpp"
 
@@ -73,13 +74,6 @@ std::vector<glm::vec3> ends_of_scan(const Mesh& mesh, double step) {
   return points;
 }
 
-float quantile(std::vector<float> values, double share) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
 /// How far a facet's samples lie from its creases and from the end of the scan.
 struct Span {
   double width = 0;  ///< of the facet, mesh units; infinity if it has neither
@@ -120,7 +114,7 @@ class Ruler {
       inwards.push_back(std::min(to_crease, to_end));
     }
     const auto count = static_cast<double>(facet.size());
-    return {2.0 * static_cast<double>(quantile(std::move(inwards), kInner)) / kInner,
+    return {2.0 * static_cast<double>(quantile(inwards, kInner)) / kInner,
             static_cast<double>(ended) / count};
   }
 
