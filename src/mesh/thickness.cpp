@@ -14,7 +14,7 @@ constexpr float kSquare = 0.8F;  // rays that leave within 37 degrees of the nor
 constexpr double kBinsPerOctave = 12.0;  // 6 % wide bins: finer than the walls of a thrown pot vary
 constexpr double kThinnest = 1.0 / 4096.0;
 constexpr double kMostOfSize = 0.12;    // of a thin piece
-constexpr double kMostOfSherd = 0.2;    // of one whose walls run parallel nearly everywhere
+constexpr double kMostOfSherd = 0.2;    // of one whose walls run parallel nearly everywhere, however thick
 constexpr float kParallel = 0.95F;      // within 18 degrees
 constexpr double kLeastParallel = 0.2;  // of a thin piece's surface: cracks of a solid lean on each other
 constexpr double kEvenLow = 0.8;        // of the thickness
@@ -70,14 +70,17 @@ double wall_thickness(const InwardRays& rays, double size) {
   const double guess = size * kThinnest * std::exp2((static_cast<double>(mode) + 0.5) / kBinsPerOctave);
   std::vector<float> near;
   std::size_t parallel = 0;
+  std::size_t parallel_anyhow = 0;
   for (std::size_t i = 0; i < rays.length.size(); ++i) {
     const double ratio = static_cast<double>(rays.length[i]) / guess;
     if (rays.square[i] > kSquare && ratio > 0.6 && ratio < 1.6) near.push_back(rays.length[i]);
-    if (rays.square[i] > kParallel && ratio > kEvenLow && ratio < kEvenHigh) ++parallel;
+    if (rays.square[i] <= kParallel) continue;
+    if (ratio > kEvenLow && ratio < kEvenHigh) ++parallel;
+    if (static_cast<double>(rays.length[i]) < kEvenHigh * kMostOfSherd * size) ++parallel_anyhow;
   }
   const bool thin = guess <= kMostOfSize * size && 3 * near.size() >= rays.length.size() &&
                     static_cast<double>(parallel) >= kLeastParallel * static_cast<double>(rays.length.size());
-  const bool sherd = guess <= kMostOfSherd * size && 2 * parallel >= rays.length.size();
+  const bool sherd = guess <= kMostOfSherd * size && 2 * parallel_anyhow >= rays.length.size();
   if (!thin && !sherd) return 0.0;
   const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
   std::nth_element(near.begin(), middle, near.end());

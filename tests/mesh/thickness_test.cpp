@@ -52,6 +52,24 @@ InwardRays rays_of_a_slab(float square) {
   return rays;
 }
 
+/// Rays of a piece with two walls: seven twentieths leave at a sixth of the size, a quarter at an eleventh, at this cosine.
+InwardRays rays_of_two_walls(float square) {
+  InwardRays rays;
+  for (int k = 0; k < 1000; ++k) {
+    const bool foot = k < 350;
+    const bool wall = !foot && k < 600;
+    const float length = foot ? 16.0F + 0.004F * static_cast<float>(k - 175) : 9.0F;
+    rays.length.push_back(foot || wall ? length : 60.0F);
+    rays.square.push_back(foot ? 0.99F : wall ? square : 0.5F);
+  }
+  return rays;
+}
+
+TEST(Thickness, WallsThatRunParallelNearlyEverywhereNeedNotBeAsThick) {
+  EXPECT_NEAR(wall_thickness(rays_of_two_walls(0.99F), 100.0), 16.0, 0.3);
+  EXPECT_EQ(wall_thickness(rays_of_two_walls(0.9F), 100.0), 0.0);
+}
+
 // Two cracks of a solid object may run side by side, but they are not parallel.
 TEST(Thickness, SlabBetweenCracksThatLeanOnEachOtherHasNoWall) {
   EXPECT_EQ(wall_thickness(rays_of_a_slab(0.88F), 100.0), 0.0);
