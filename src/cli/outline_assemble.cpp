@@ -56,6 +56,7 @@ class OutlineAssembleCommand final : public Command {
         ->group("Output");
     add_outline_method(app, method_);
     add_calibration(app, calibration_);
+    add_dust(app, pictures_);
   }
 
   ExitCode run(Console& console, Context& context) override {
@@ -64,7 +65,7 @@ class OutlineAssembleCommand final : public Command {
     apply_calibration(calibration_, method_, multiscale);
     if (out_) require_out();  // first, for --json may lie in it
     if (json_) require_writable_file(*json_);
-    const outline::PieceSet set = load_folder(folder_, console);
+    const outline::PieceSet set = load_folder(folder_, pictures_, console);
     const std::size_t count = set.pieces.size();
     if (count < 2) throw InputError(folder_, "holds one piece only", "give a folder of pieces");
     search_pairs_in_full(count * (count - 1) / 2, multiscale);
@@ -118,6 +119,7 @@ class OutlineAssembleCommand final : public Command {
   std::optional<std::string> json_;
   std::optional<std::string> out_;
   std::optional<std::string> calibration_;
+  outline::ExtractOptions pictures_;
   OutlineMethod method_ = OutlineMethod::Automatic;
 };
 

@@ -44,6 +44,7 @@ class OutlineCalibrateCommand final : public Command {
         ->type_name("FILE")
         ->group("Input");
     app.add_option("--json", json_, "write the parameters")->type_name("FILE")->group("Output");
+    add_dust(app, pictures_);
     add_number(app, "--scales", options_.scales, {1, 8}, "scales, 1 to 8 (5)")->group("Search");
     add_seed(app, options_.seed, "of the random numbers (1)")->group("Search");
   }
@@ -54,7 +55,7 @@ class OutlineCalibrateCommand final : public Command {
       require_apart("--json", *json_, path);
       require_writable_file(*json_);
     }
-    const outline::PieceSet set = load_folder(folder_, console);
+    const outline::PieceSet set = load_folder(folder_, pictures_, console);
     const std::vector<outline::KnownJoin> joins = read_known_joins(path, set.pieces);
     const std::vector<outline::CalibratedLevel> levels =
         outline::calibrate(set.pieces, joins, options_, context);
@@ -74,6 +75,7 @@ class OutlineCalibrateCommand final : public Command {
   std::string folder_;
   std::optional<std::string> joins_;
   std::optional<std::string> json_;
+  outline::ExtractOptions pictures_;
   outline::CalibrateOptions options_;
 };
 

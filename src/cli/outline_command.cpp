@@ -18,14 +18,14 @@ namespace rejoin::cli {
 namespace {
 
 // Nothing is found yet that Ctrl-C could save, and one picture may take long.
-outline::PieceSet read_file_or_end(const std::string& path) {
+outline::PieceSet read_file_or_end(const std::string& path, const outline::ExtractOptions& options) {
   const NothingToSave guard;
-  return outline::read_pieces(path);
+  return outline::read_pieces(path, options);
 }
 
-outline::PieceSet read_folder_or_end(const std::string& folder) {
+outline::PieceSet read_folder_or_end(const std::string& folder, const outline::ExtractOptions& options) {
   const NothingToSave guard;
-  return outline::read_folder(folder);
+  return outline::read_folder(folder, options);
 }
 
 /// A true join's score is hardly ever below.
@@ -51,6 +51,12 @@ void add_calibration(CLI::App& app, std::optional<std::string>& calibration) {
   app.add_option("--calibration", calibration,
                  "numbers from outline calibrate, for multiscale (the usual ones)")
       ->type_name("FILE")
+      ->group("Input");
+}
+
+void add_dust(CLI::App& app, outline::ExtractOptions& options) {
+  add_number(app, "--dust", options.dust, {0, 50, "PERCENT"},
+             "what is smaller in a picture is no piece, 0 to 50 percent of the largest piece's area (2)")
       ->group("Input");
 }
 
@@ -133,8 +139,8 @@ PieceName piece_name(const std::string& given) {
   return {parts[1], std::stoul(parts[2]), true};
 }
 
-outline::Piece load_piece(const PieceName& name, Console& console) {
-  outline::PieceSet set = read_file_or_end(name.file);
+outline::Piece load_piece(const PieceName& name, const outline::ExtractOptions& options, Console& console) {
+  outline::PieceSet set = read_file_or_end(name.file, options);
   for (const std::string& note : set.notes) console.warning(note);
   const std::string has = "holds " + counted(set.pieces.size(), "piece");
   if (name.number > set.pieces.size())
@@ -144,8 +150,9 @@ outline::Piece load_piece(const PieceName& name, Console& console) {
   return std::move(set.pieces[name.number - 1]);
 }
 
-outline::PieceSet load_folder(const std::string& folder, Console& console) {
-  outline::PieceSet set = read_folder_or_end(folder);
+outline::PieceSet load_folder(const std::string& folder, const outline::ExtractOptions& options,
+                              Console& console) {
+  outline::PieceSet set = read_folder_or_end(folder, options);
   for (const std::string& note : set.notes) console.warning(note);
   for (const outline::LeftOut& file : set.unusable) console.warning(file.reason);
   for (const outline::LeftOut& piece : set.repeated) console.warning(piece.reason);

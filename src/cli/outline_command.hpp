@@ -26,6 +26,9 @@ void add_outline_method(CLI::App& app, OutlineMethod& method);
 /// Adds --calibration, which goes with it.
 void add_calibration(CLI::App& app, std::optional<std::string>& calibration);
 
+/// Adds --dust.
+void add_dust(CLI::App& app, outline::ExtractOptions& options);
+
 /// Reads a calibration into the options, if one is given.
 /// \throws UsageError the method is not multiscale, which alone has such numbers
 /// \throws IoError, InputError see read_calibration()
@@ -64,10 +67,11 @@ PieceName piece_name(const std::string& given);
 
 /// A piece of a file, the largest if no number is given; tells of repairs, and then of further pieces.
 /// \throws InputError the file holds less pieces
-outline::Piece load_piece(const PieceName& name, Console& console);
+outline::Piece load_piece(const PieceName& name, const outline::ExtractOptions& options, Console& console);
 
 /// The pieces of a folder; tells of repairs, of files that cannot be used and of copies.
-outline::PieceSet load_folder(const std::string& folder, Console& console);
+outline::PieceSet load_folder(const std::string& folder, const outline::ExtractOptions& options,
+                              Console& console);
 
 /// The exit code of a command that has used a folder: kFailure, told, if a file of it could not be used.
 ExitCode finished_with(const outline::PieceSet& set, Console& console);

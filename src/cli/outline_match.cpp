@@ -58,6 +58,7 @@ class OutlineMatchCommand final : public Command {
     app.add_option("--out", out_, "write match.png and joined.png")->type_name("DIR")->group("Output");
     add_outline_method(app, method_);
     add_calibration(app, calibration_);
+    add_dust(app, pictures_);
   }
 
   ExitCode run(Console& console, Context& context) override {
@@ -71,7 +72,8 @@ class OutlineMatchCommand final : public Command {
     apply_calibration(calibration_, method_, multiscale);
     if (out_) require_out(a.file, b.file);  // first, for --json may lie in it
     if (json_) require_json(a.file, b.file);
-    const std::vector<outline::Piece> pieces{load_piece(a, console), load_piece(b, console)};
+    const std::vector<outline::Piece> pieces{load_piece(a, pictures_, console),
+                                             load_piece(b, pictures_, console)};
     if (const auto doubt = outline::doubt_resolutions({a.file, b.file})) console.warning(*doubt);
     if (const auto doubt = outline::doubt_axes(pieces)) console.warning(*doubt);
     check_calibration(calibration_, multiscale, pieces, console);
@@ -129,9 +131,11 @@ class OutlineMatchCommand final : public Command {
   ExitCode run_rims(Console& console, Context& context) {
     if (!mesh::has_scan_name(path_a_) || !mesh::has_scan_name(path_b_))
       throw UsageError("A B", "one is a scan and the other is flat", "give two of a kind");
-    if (out_ || calibration_ || method_ != OutlineMethod::Automatic) {
+    const bool dust = pictures_.dust != outline::ExtractOptions{}.dust;
+    if (out_ || calibration_ || dust || method_ != OutlineMethod::Automatic) {
       throw UsageError(out_           ? "--out"
                        : calibration_ ? "--calibration"
+                       : dust         ? "--dust"
                                       : "--method",
                        "is for flat pieces, and these are scans", "leave it out, or use rejoin match");
     }
@@ -144,6 +148,7 @@ class OutlineMatchCommand final : public Command {
   std::optional<std::string> json_;
   std::optional<std::string> out_;
   std::optional<std::string> calibration_;
+  outline::ExtractOptions pictures_;
   OutlineMethod method_ = OutlineMethod::Automatic;
 };
 

@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
+#include "core/words.hpp"
 #include "outline/detail/contour.hpp"
 #include "outline/detail/coverage.hpp"
 #include "outline/polygon.hpp"
@@ -43,6 +44,10 @@ constexpr float kLeastEdge = 0.45F;
 constexpr double kMostBlurred = 0.3;
 /// The border's direction at a point is that from this many points before to as many after.
 constexpr std::size_t kDirectionReach = 4;
+
+/// What is left out as dust may be none if it covers this many pixels and this share of what would not be dust.
+constexpr double kLargestSpeck = 400.0;
+constexpr double kDoubtfulDust = 0.1;
 
 using Polygon = std::vector<glm::dvec2>;
 
@@ -123,7 +128,7 @@ struct Loops {
   std::vector<Polygon> holes;
 };
 
-Loops sort_loops(std::vector<Polygon> all, double min_area) {
+Loops sort_loops(std::vector<Polygon> all) {
   std::vector<std::pair<double, Polygon>> sized;
   sized.reserve(all.size());
   for (Polygon& polygon : all) {
@@ -132,14 +137,17 @@ Loops sort_loops(std::vector<Polygon> all, double min_area) {
   }
   std::stable_sort(sized.begin(), sized.end(),
                    [](const auto& a, const auto& b) { return std::abs(a.first) > std::abs(b.first); });
-  double largest = 0.0;
-  for (const auto& [area, polygon] : sized) largest = std::max(largest, area);
   Loops loops;
-  for (auto& [area, polygon] : sized) {
-    if (std::abs(area) < min_area * largest) break;
-    (area > 0.0 ? loops.outer : loops.holes).push_back(std::move(polygon));
-  }
+  for (auto& [area, polygon] : sized) (area > 0.0 ? loops.outer : loops.holes).push_back(std::move(polygon));
   return loops;
+}
+
+/// Leaves out what is smaller than an area.
+/// \param polygons  largest first
+void drop_below(double area, std::vector<Polygon>& polygons) {
+  const auto first =
+      std::ranges::find_if(polygons, [&](const Polygon& p) { return std::abs(signed_area(p)) < area; });
+  polygons.erase(first, polygons.end());
 }
 
 /// Gives each hole to the smallest piece around it.
@@ -259,17 +267,36 @@ void judge_cut_pieces(std::vector<Polygon>& outer, const cv::Mat& image, std::ve
   outer.erase(std::remove_if(outer.begin(), outer.end(), cut), outer.end());
 }
 
+/// Leaves out what is dust beside the largest piece, and tells if it may be none.
+/// \param outer  largest first   \param percent  of the largest's area
+void drop_dust(std::vector<Polygon>& outer, double percent, std::vector<std::string>& notes) {
+  const double least = percent / 100.0 * signed_area(outer[0]);
+  const std::vector<Polygon> all = outer;
+  drop_below(least, outer);
+  const auto doubtful = std::count_if(
+      all.begin() + static_cast<std::ptrdiff_t>(outer.size()), all.end(),
+      [&](const Polygon& p) { return signed_area(p) >= std::max(kLargestSpeck, kDoubtfulDust * least); });
+  if (doubtful == 0) return;
+  notes.push_back(
+      fmt::format("{} with less than {:.3g} % of the largest's area {} taken for dust, the largest "
+                  "{}: --dust says how much is",
+                  counted(static_cast<std::size_t>(doubtful), "piece"), percent, doubtful == 1 ? "is" : "are",
+                  place_of(all[outer.size()])));
+}
+
 }  // namespace
 
 Extraction extract(const std::string& path, const ExtractOptions& options) {
   Extraction result;
   const cv::Mat image = picture::load_image(path, options.max_pixels, &result.notes);
   detail::Coverage coverage = detail::coverage(image, path);
-  Loops loops = sort_loops(detail::contours(coverage.field, 0.5F, kLeastPoints), options.min_area);
+  Loops loops = sort_loops(detail::contours(coverage.field, 0.5F, kLeastPoints));
   if (loops.outer.empty()) {
     throw InputError(path, "no piece: what stands out is smaller than a few pixels", "scan with more pixels");
   }
   std::move(coverage.notes.begin(), coverage.notes.end(), std::back_inserter(result.notes));
+  drop_below(options.dust / 100.0 * signed_area(loops.outer[0]), loops.holes);
+  drop_dust(loops.outer, options.dust, result.notes);
   if (!coverage.distance.empty()) require_no_print(loops.outer, coverage.distance, path);
   judge_cut_pieces(loops.outer, image, result.notes);
   if (!coverage.distance.empty()) doubt_background(loops.outer, coverage.distance, result.notes);

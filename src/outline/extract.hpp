@@ -10,7 +10,7 @@
 namespace rejoin::outline {
 
 struct ExtractOptions {
-  double min_area = 0.02;              ///< pieces and holes below this share of the largest piece are dust
+  double dust = 2.0;                   ///< pieces and holes of less are, percent of the largest piece's area
   std::size_t max_pixels = 120000000;  ///< larger pictures are refused before they are decoded
 };
 

@@ -267,6 +267,30 @@ TEST(Extract, HolesAreKeptAndDustIsNot) {
   EXPECT_TRUE(found.pieces[1].holes.empty());
 }
 
+TEST(Extract, SmallPieceIsToldAndTakenIfAskedFor) {
+  const Folder folder;
+  cv::Mat image(200, 300, CV_8UC3, cv::Scalar(250, 250, 250));
+  cv::rectangle(image, {20, 20}, {219, 179}, cv::Scalar(40, 60, 90), cv::FILLED);
+  cv::rectangle(image, {250, 40}, {273, 63}, cv::Scalar(40, 60, 90),
+                cv::FILLED);  // 1.8 % of the other's area
+  cv::circle(image, {270, 150}, 3, cv::Scalar(40, 60, 90), cv::FILLED);
+  cv::imwrite(folder.file("two.png"), image);
+  const Extraction usual = extract(folder.file("two.png"));
+  EXPECT_EQ(usual.pieces.size(), 1U);
+  ASSERT_EQ(usual.notes.size(), 1U);
+  EXPECT_NE(
+      usual.notes[0].find("1 piece with less than 2 % of the largest's area is taken for dust, the largest "
+                          "24 x 24 pixels at x 250, y 40"),
+      std::string::npos)
+      << usual.notes[0];
+  ExtractOptions options;
+  options.dust = 1.0;
+  const Extraction asked = extract(folder.file("two.png"), options);
+  ASSERT_EQ(asked.pieces.size(), 2U);
+  EXPECT_NEAR(signed_area(asked.pieces[1].points), 24.0 * 24.0, 5.0);
+  EXPECT_TRUE(asked.notes.empty());
+}
+
 TEST(Extract, PieceAtTheBorderIsTakenWithANoteOrLeftOut) {
   const Folder folder;
   cv::Mat image(100, 200, CV_8UC3, cv::Scalar(250, 250, 250));
