@@ -111,11 +111,7 @@ cv::Mat placed_colours(const Piece& piece, const Planar& pose, const View& view,
   const glm::dvec2 shift = view(glm::dvec2(m[2])) - glm::dvec2(region.x, region.y);
   const cv::Matx23d motion(view.scale * m[0][0], view.scale * m[1][0], shift.x, view.scale * m[0][1],
                            view.scale * m[1][1], shift.y);
-  cv::Mat placed;
-  cv::warpAffine(colours, placed, motion, region.size(), view.scale < 0.7 ? cv::INTER_AREA : cv::INTER_LINEAR,
-                 cv::BORDER_REPLICATE);
-  placed.convertTo(placed, CV_8UC3, 255.0);
-  return placed;
+  return detail::resampled(colours, motion, region.size(), cv::BORDER_REPLICATE);
 }
 
 /// Lays colours with a coverage over the canvas (blue, green, red, alpha).

@@ -70,11 +70,7 @@ cv::Mat shown(const Piece& piece, const Window& window, Source& source) {
   if (!detail::is_picture(piece)) return {window.size(), CV_8UC3, cv::Scalar(235, 235, 235)};
   const cv::Matx23d motion(window.scale, 0.0, -window.low.x * window.scale, 0.0, window.scale,
                            -window.low.y * window.scale);
-  cv::Mat part;
-  cv::warpAffine(source.of(piece), part, motion, window.size(), cv::INTER_AREA, cv::BORDER_CONSTANT,
-                 cv::Scalar(1.0, 1.0, 1.0));
-  part.convertTo(part, CV_8UC3, 255.0);
-  return part;
+  return detail::resampled(source.of(piece), motion, window.size(), cv::BORDER_CONSTANT);
 }
 
 void draw_border(cv::Mat& image, const std::vector<glm::dvec2>& polygon, const Window& window) {

@@ -67,6 +67,30 @@ TEST_F(AssemblyPictures, SheetShowsEveryPieceWithItsOutlineOverIt) {
   }
 }
 
+TEST_F(AssemblyPictures, AScanMayBeLongerThanOpenCvTakes) {
+  // A strip of 40,000 pixels, red from the 30,000th on.
+  cv::Mat scan(20, 40000, CV_8UC3, cv::Scalar(200, 160, 60));
+  scan.colRange(30000, 40000) = cv::Scalar(0, 0, 200);
+  Piece piece = coloured("long.png", {0, 0, 0});
+  cv::imwrite(piece.path, scan);
+  piece.outline.points = {{1000.0, 2.0}, {39000.0, 2.0}, {39000.0, 17.0}, {1000.0, 17.0}};
+  Assembly assembly;
+  assembly.placements = {{Planar{}, 0, 0.9}, {Planar{0.0, {0.0, 15.0}, false}, 0, 0.9}};
+  write_assembly_pictures(folder_, {piece, piece}, assembly, {.longest_side = 3800});
+  write_pieces_picture(folder_ / "pieces.png", {piece});
+  const cv::Mat object = cv::imread((folder_ / "object_1.png").string(), cv::IMREAD_UNCHANGED);
+  ASSERT_GT(object.cols, 3000);
+  int reds = 0;
+  int seen = 0;
+  for (int x = 0; x < object.cols; ++x) {
+    const auto pixel = object.at<cv::Vec4b>(object.rows / 2, x);
+    if (pixel[3] < 200) continue;
+    ++seen;
+    reds += pixel[2] > pixel[0] ? 1 : 0;
+  }
+  EXPECT_NEAR(reds / static_cast<double>(seen), 9000.0 / 38000.0, 0.001);
+}
+
 TEST_F(AssemblyPictures, WhatLiesUnderTransparentPixelsIsNowhereSeen) {
   Piece piece = coloured("a.png", {200, 220, 210});
   Assembly assembly = side_by_side();

@@ -1,5 +1,6 @@
 #include "outline/detail/drawing.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -59,6 +60,28 @@ cv::Mat colours_on_white(const Piece& piece) {
   return visible_colours(piece, [](const cv::Mat& seen, const cv::Mat&) {
     return cv::Mat(seen.size(), CV_32F, cv::Scalar(1.0));
   });
+}
+
+cv::Mat resampled(const cv::Mat& colours, cv::Matx23d motion, const cv::Size& size, int border) {
+  constexpr int kLongest = 16384;
+  const int times = (std::max(colours.cols, colours.rows) + kLongest - 1) / kLongest;
+  cv::Mat source = colours;
+  if (times > 1) {
+    cv::resize(colours, source, {(colours.cols + times - 1) / times, (colours.rows + times - 1) / times}, 0.0,
+               0.0, cv::INTER_AREA);
+    const cv::Vec2d step(static_cast<double>(colours.cols) / source.cols,
+                         static_cast<double>(colours.rows) / source.rows);
+    for (int row = 0; row < 2; ++row) {
+      // The middle of the first pixel is that of as many of the larger picture.
+      motion(row, 2) += 0.5 * (motion(row, 0) * (step[0] - 1.0) + motion(row, 1) * (step[1] - 1.0));
+      motion(row, 0) *= step[0];
+      motion(row, 1) *= step[1];
+    }
+  }
+  cv::Mat placed;
+  cv::warpAffine(source, placed, motion, size, cv::INTER_LINEAR, border, cv::Scalar(1.0, 1.0, 1.0));
+  placed.convertTo(placed, CV_8UC3, 255.0);
+  return placed;
 }
 
 std::string short_name(const std::string& full) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <opencv2/core/mat.hpp>
+#include <opencv2/core/matx.hpp>
 #include <string>
 
 #include "outline/outline.hpp"
@@ -19,6 +20,12 @@ cv::Mat colours_of(const Piece& piece, int reach);
 
 /// The same with white where the picture is transparent.
 cv::Mat colours_on_white(const Piece& piece);
+
+/// Colours at their places in a picture of this size, 8 bits.  Pictures with a side of more than 16,384 pixels are made smaller first, as
+/// OpenCV's own function takes none above 32,767.
+/// \param motion  from places in `colours` to those in the result
+/// \param border  of OpenCV's cv::BorderTypes: what lies outside; a constant is white
+cv::Mat resampled(const cv::Mat& colours, cv::Matx23d motion, const cv::Size& size, int border);
 
 /// At most 32 letters that the font has, cut in the middle: names of pictures differ at their ends.
 std::string short_name(const std::string& full);
