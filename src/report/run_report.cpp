@@ -32,17 +32,22 @@ void require_valid(const RunReport& report) {
   }
 }
 
-/// The pairs that are listed, best first (equal scores as given): those that the assembly uses, and the best of the others.
+/// The pairs that are listed, best first (equal scores as given): those that the assembly uses, each fragment's best one, and the best of
+/// the others.
 std::vector<std::size_t> listed_pairs(const RunReport& report, std::size_t count) {
   std::vector<std::size_t> order(report.pairs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return report.pairs[a].score > report.pairs[b].score;
   });
+  std::vector<bool> has_best(report.fragments.size(), false);
   std::size_t others = 0;
-  order.erase(std::remove_if(order.begin(), order.end(),
-                             [&](std::size_t k) { return !report.pairs[k].used && others++ >= count; }),
-              order.end());
+  std::erase_if(order, [&](std::size_t k) {
+    const ReportPair& pair = report.pairs[k];
+    const bool best = pair.comparison != Comparison::Failed && (!has_best[pair.a] || !has_best[pair.b]);
+    if (best) has_best[pair.a] = has_best[pair.b] = true;
+    return !pair.used && others++ >= count && !best;
+  });
   return order;
 }
 
@@ -118,19 +123,20 @@ std::optional<Rigid> pose_of(const RunReport& report, const ReportPair& pair) {
   return pair.pose;
 }
 
-/// The pairs that get pictures: those of the assembly first, then the best.
+/// The pairs that get pictures: those of the assembly first, then the best others, which have a third of the pictures at least, as the user
+/// has to judge those by eye.
 std::vector<std::size_t> pictured_pairs(const detail::PageData& data, std::size_t count) {
-  std::vector<std::size_t> pairs = data.listed;
-  std::stable_partition(pairs.begin(), pairs.end(),
-                        [&](std::size_t k) { return data.report->pairs[k].used; });
-  pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
-                             [&](std::size_t k) {
-                               const ReportPair& pair = data.report->pairs[k];
-                               return pair.pictures.empty() && !pose_of(*data.report, pair);
-                             }),
-              pairs.end());
-  if (pairs.size() > count) pairs.resize(count);
-  return pairs;
+  std::vector<std::size_t> used;
+  std::vector<std::size_t> others;
+  for (const std::size_t k : data.listed) {
+    const ReportPair& pair = data.report->pairs[k];
+    if (!pair.pictures.empty() || pose_of(*data.report, pair)) (pair.used ? used : others).push_back(k);
+  }
+  const std::size_t left = count - std::min(count, used.size());
+  others.resize(std::min(others.size(), std::max(left, count / 3)));
+  used.resize(std::min(used.size(), count - others.size()));
+  used.insert(used.end(), others.begin(), others.end());
+  return used;
 }
 
 std::vector<ReportPicture> drawn(const RunReport& report, const ReportPair& pair) {

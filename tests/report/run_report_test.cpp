@@ -5,6 +5,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <tuple>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -97,6 +99,34 @@ TEST(RunReport, KeepsItsBudgets) {
   }
   EXPECT_LE(pictures, 200000U);
   EXPECT_GT(pictures, 50000U);
+}
+
+TEST(RunReport, ListsTheBestPairOfEveryFragment) {
+  RunReport report = long_row(4, 20);
+  report.pairs = {{0, 1, 0.9, "join", true, {}, {}, {}},
+                  {0, 2, 0.4, "unsure", false, {}, {}, {}},
+                  {1, 2, 0.3, "no join", false, {}, {}, {}},
+                  {2, 3, 0.2, "no join", false, {}, {}, {}}};
+  RunReportOptions options;
+  options.listed_pairs = 0;
+  const nlohmann::json data = data_of(written(report, options));
+  ASSERT_EQ(data["pairs"].size(), 3U);  // all but 1 + 2
+  EXPECT_EQ(data["pairs"][1]["score"], 0.4);
+  EXPECT_EQ(data["pairs"][2]["score"], 0.2);
+}
+
+TEST(RunReport, ShowsPicturesOfPairsThatTheUserHasToJudge) {
+  RunReport report = long_row(6, 20);
+  ReportPair doubtful = report.pairs[0];
+  std::tie(doubtful.a, doubtful.b, doubtful.score, doubtful.verdict, doubtful.used) =
+      std::tuple(0U, 5U, 0.5, "unsure", false);
+  report.pairs.push_back(doubtful);
+  RunReportOptions options;
+  options.pictured_joins = 3;
+  const nlohmann::json data = data_of(written(report, options));
+  std::vector<bool> shown;
+  for (const auto& pair : data["pairs"]) shown.push_back(!pair["pictures"].empty());
+  EXPECT_EQ(shown, std::vector<bool>({true, true, false, false, false, true}));
 }
 
 TEST(RunReport, IsTheSameForAnyNumberOfThreads) {
