@@ -51,6 +51,8 @@ class MergeCommand final : public Command {
     if (missing > 0) console.result(fmt::format(" ({} still to be done)", missing));
     console.result("\n");
     console.wrote(table);
+    for (const std::string& name : merged.gone)
+      console.warning(name + ": is gone from the scans; its pairs are forgotten");
     if (missing > 0 && !merged.absent.empty()) console.warning(told_absent(merged.absent));
     if (merged.failed == 0) return kDone;
     console.warning(counted(merged.failed, "pair") + " failed; the table tells why");

@@ -6,6 +6,7 @@
 
 #include <charconv>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -31,11 +32,13 @@ INSERT OR REPLACE INTO main.pair (a, b, stage, evidence, score, verdict, seconds
   WHERE p.stage <> 'failed' OR NOT EXISTS (SELECT 1 FROM main.pair q WHERE q.a = x.id AND q.b = y.id)
 )sql";
 
-/// Pairs of the attached run that ours lacks, or of which it has a failure only, by the fragments' names.
+/// Pairs of the attached run that ours lacks, or of which it has a failure only, by the fragments' names; those of fragments that ours
+/// does not have only where the parameter is 1.
 constexpr const char* kCountLost = R"sql(
 SELECT count(*) FROM part.pair p
   JOIN part.fragment u ON u.id = p.a JOIN part.fragment v ON v.id = p.b
-  WHERE NOT EXISTS (SELECT 1 FROM main.pair q
+  WHERE (? = 1 OR (u.name IN (SELECT name FROM main.fragment) AND v.name IN (SELECT name FROM main.fragment)))
+    AND NOT EXISTS (SELECT 1 FROM main.pair q
     JOIN main.fragment x ON x.id = q.a JOIN main.fragment y ON y.id = q.b
     WHERE x.name = u.name AND y.name = v.name AND (q.stage <> 'failed' OR p.stage = 'failed'))
 )sql";
@@ -95,8 +98,12 @@ Whole survey(const std::vector<fs::path>& runs) {
   return whole;
 }
 
-/// As Merged tells it.
-std::vector<std::string> absent_shards(const std::vector<std::string>& shards) {
+/// Fragments of the attached run that ours does not have.
+constexpr const char* kGone =
+    "SELECT name FROM part.fragment WHERE name NOT IN (SELECT name FROM main.fragment) ORDER BY name";
+
+/// As Merged tells it; nullopt where the runs are not all shards of one N.
+std::optional<std::vector<std::string>> absent_shards(const std::vector<std::string>& shards) {
   std::set<std::size_t> given;
   std::size_t count = 0;
   for (const std::string& shard : shards) {
@@ -106,7 +113,7 @@ std::vector<std::string> absent_shards(const std::vector<std::string>& shards) {
     const auto first = std::from_chars(shard.data(), end, number);
     if (first.ec != std::errc() || first.ptr == end ||
         std::from_chars(first.ptr + 1, end, of).ec != std::errc() || (count != 0 && of != count))
-      return {};
+      return std::nullopt;
     count = of;
     given.insert(number);
   }
@@ -169,25 +176,39 @@ Merged count(SQLite::Database& database) {
   return {number("SELECT count(*) FROM fragment"),
           number("SELECT count(*) FROM pair"),
           number("SELECT count(*) FROM pair WHERE stage = 'failed'"),
+          {},
           {}};
 }
 
-/// \return pairs of the output's own database, if it has one, that the whole would not have
-std::size_t lost_pairs(SQLite::Database& whole, const fs::path& output) {
+/// What of the output's own database, if it has one, the whole would not have.
+struct Lost {
+  std::size_t pairs = 0;
+  std::vector<std::string> fragments;
+};
+
+/// \param complete  the runs are all shards of a folder: pairs of scans that they do not know are no loss
+Lost lost_by(SQLite::Database& whole, const fs::path& output, bool complete) {
   std::error_code ignored;
   const fs::path file = output / kFileName;
-  if (!fs::exists(file, ignored)) return 0;
+  if (!fs::exists(file, ignored)) return {};
   { const Run usable = Run::open(output); }
   SQLite::Statement attach(whole, "ATTACH ? AS part");
   attach.bind(1, detail::reading_address(file));
   attach.exec();
-  const auto lost = static_cast<std::size_t>(whole.execAndGet(kCountLost).getInt64());
+  Lost lost;
+  {
+    SQLite::Statement pairs(whole, kCountLost);
+    pairs.bind(1, complete ? 0 : 1);
+    pairs.executeStep();
+    lost.pairs = static_cast<std::size_t>(pairs.getColumn(0).getInt64());
+    for (SQLite::Statement gone(whole, kGone); gone.executeStep();)
+      lost.fragments.push_back(gone.getColumn(0).getString());
+  }
   whole.exec("DETACH part");
   return lost;
 }
 
-void require_nothing_lost(SQLite::Database& whole, const fs::path& output) {
-  const std::size_t lost = lost_pairs(whole, output);
+void require_nothing_lost(std::size_t lost, const fs::path& output) {
   if (lost == 0) return;
   throw StoreError(
       (output / kFileName).string(),
@@ -240,16 +261,20 @@ Merged merge(const std::vector<fs::path>& runs, const fs::path& output) {
   const PartFolder part(output / "merge.part");
   make_fragments(part.path(), whole);
   const std::string path = (part.path() / kFileName).string();
+  const auto absent = absent_shards(whole.shards);
   Merged merged = detail::guarded(path, [&] {
     SQLite::Database database(path, SQLite::OPEN_READWRITE | SQLite::OPEN_URI);
     database.exec("PRAGMA foreign_keys = ON");
     for (const fs::path& folder : runs) copy_pairs(database, folder);
     detail::remove_pairs_of_copies(database);
-    require_nothing_lost(database, output);
-    return count(database);
+    Lost lost = lost_by(database, output, absent && absent->empty());
+    require_nothing_lost(lost.pairs, output);
+    Merged made = count(database);
+    made.gone = std::move(lost.fragments);
+    return made;
   });
   put_in_place(path, output);
-  merged.absent = absent_shards(whole.shards);
+  if (absent) merged.absent = *absent;
   return merged;
 }
 

@@ -14,6 +14,8 @@ struct Merged {
   std::size_t failed = 0;  ///< of the pairs
   /// "I/N" of shards that are not among the runs, ascending; none where the runs are not all shards of one N.
   std::vector<std::string> absent;
+  /// Names of fragments that the output knew and no run does: of scans that were taken away.
+  std::vector<std::string> gone;
 };
 
 /// Copies all fragments and pairs of the runs into one.  Pairs that several have are taken once, a result before a
@@ -24,7 +26,8 @@ struct Merged {
 ///                a shard
 /// \param output  an existing folder
 /// \throws StoreError runs were made with other parameters or by another version, a fragment of the same name has another content in two of
-///         them, the output has pairs that none of the runs has or is a shard, a run is given twice, or a database cannot be used
+///         them, the output has pairs that none of the runs has (but for those of scans
+///         that are gone, if the runs are all shards of a folder) or is a shard, a run is given twice, or a database cannot be used
 Merged merge(const std::vector<std::filesystem::path>& runs, const std::filesystem::path& output);
 
 }  // namespace rejoin::store

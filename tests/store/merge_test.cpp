@@ -128,6 +128,23 @@ TEST_F(Merge, WholeReplacesWhatWasThereButLosesNoPair) {
   EXPECT_EQ(store::Run::open(output()).pairs().size(), 2U);
 }
 
+TEST_F(Merge, AllShardsForgetTheScansThatAreGone) {
+  merge({shard("1/2", {"a", "b", "c", "d"}, 0.5), shard("2/2", {"a", "d"}, 0.5)}, output());
+  fs::remove_all(folder_ / "1");
+  fs::remove_all(folder_ / "2");
+  const fs::path first = shard("1/2", {"a", "b", "c"}, 0.5);
+  EXPECT_THROW(merge({first}, output()), StoreError) << "the other shard may know d";
+  const Merged merged = merge({first, shard("2/2", {"b", "c"}, 0.5)}, output());
+  EXPECT_EQ(merged.gone, std::vector<std::string>{"d"});
+  const std::vector<Pair> pairs = store::Run::open(output()).pairs();
+  ASSERT_EQ(pairs.size(), 2U);
+  EXPECT_EQ(pairs[0].name_a + pairs[0].name_b, "ab");
+  EXPECT_EQ(pairs[1].name_a + pairs[1].name_b, "bc");
+  // What remains must still be there.
+  fs::remove_all(folder_ / "2");
+  EXPECT_THROW(merge({first, shard("2/2", {"a", "c"}, 0.5)}, output()), StoreError);
+}
+
 TEST_F(Merge, ReaderGoesOnReadingTheOldWholeAndTheNewOneStays) {
   const fs::path x = shard("x", {"a", "b"}, 0.5);
   merge({x}, output());
