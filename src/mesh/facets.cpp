@@ -27,12 +27,13 @@ constexpr float kWallLow = 0.5F;        // of the wall thickness
 constexpr float kWallHigh = 1.8F;
 constexpr float kWallSquare = 0.95F;   // the opposite wall may lean by 18 degrees
 constexpr float kThickSquare = 0.75F;  // walls much thicker than the others may lean by 41 degrees,
-constexpr double kThicker = 1.3;       // have that of the wall thickness at least,
-constexpr double kThickest = 6.0;      // that at most,
-constexpr double kWider = 1.2;         // and are that much wider than thick
-constexpr double kVoteReach = 1.0;     // wall thicknesses within which samples vote on each other,
-constexpr float kVoteLean = 0.95F;     // if their normals differ by at most 18 degrees
-constexpr float kVoteLevel = 0.1F;     // and they lie within that of each other's plane
+constexpr float kThicker = 1.3F;       // have that of the wall thickness at least,
+constexpr float kThickest = 6.0F;      // that at most,
+constexpr double kWide =
+    0.8;  // and are that much as wide as thick: more than a break, which has 1 / kThicker of it
+constexpr double kVoteReach = 1.0;  // wall thicknesses within which samples vote on each other,
+constexpr float kVoteLean = 0.95F;  // if their normals differ by at most 18 degrees
+constexpr float kVoteLevel = 0.1F;  // and they lie within that of each other's plane
 constexpr std::size_t kVoters = 6;  // every so many samples have a vote: some twenty-five are asked each time
 constexpr int kVotes = 8;           // at most
 constexpr double kStripRadius = 0.7;  // of the wall thickness
@@ -157,23 +158,27 @@ double width_of(const Segmentation& s, const std::vector<std::uint32_t>& facet) 
   return inwards.empty() ? 0.0 : 2.0 * quantile(inwards, kInner) / kInner;
 }
 
-/// Adds the walls of a vessel's foot and the like, much thicker than its others: facets that are wider than the piece is thick there.  The
-/// sides of a sherd's breaks are farther from each other than they are wide.
+/// Adds the walls of a vessel's foot and the like, much thicker than its others, and those that are much thinner than a foot: facets that
+/// are about as wide as the piece is thick there, or wider.  The sides of a sherd's breaks are farther from each other than they are wide;
+/// where a break runs askew, the piece thins out along it.
 /// \return whether there are such
-bool add_thick_walls(Segmentation& s, const InwardRays& rays, const Lists& near) {
+bool add_other_walls(Segmentation& s, const InwardRays& rays, const Lists& near) {
   const detail::Ground ground{s.samples.points, s.normals, s.surface, near, s.samples.spacing};
   bool some = false;
   for (const auto& facet : detail::grow_facets(ground, detail::kCone, detail::smallest_facet(s))) {
     if (s.surface[facet.front()] != Surface::Fracture) continue;
-    std::vector<float> square;
+    std::vector<float> squares;
     std::vector<float> thickness;
     for (const auto i : facet) {
-      square.push_back(rays.square[i]);
+      squares.push_back(rays.square[i]);
       thickness.push_back(rays.length[i]);
     }
-    const double middle = median(thickness) / s.wall_thickness;
-    if (median(square) < kThickSquare || middle < kThicker || middle > kThickest) continue;
-    if (width_of(s, facet) < kWider * middle * s.wall_thickness) continue;
+    const float middle = median(thickness) / static_cast<float>(s.wall_thickness);
+    const float square = median(squares);
+    const bool thicker = middle > kThicker && middle < kThickest && square > kThickSquare;
+    const bool thinner = middle < kWallLow && square > kWallSquare;
+    if (!thicker && !thinner) continue;
+    if (width_of(s, facet) < kWide * static_cast<double>(middle) * s.wall_thickness) continue;
     for (const auto i : facet) s.surface[i] = Surface::Original;
     some = true;
   }
@@ -218,7 +223,7 @@ void classify_thin(Segmentation& s, const InwardRays& rays, const Lists& near,
       s.surface[i] = is_wall(i) ? Surface::Original : Surface::Fracture;
   });
   vote(s.surface, voters);
-  if (add_thick_walls(s, rays, near)) vote(s.surface, voters);
+  if (add_other_walls(s, rays, near)) vote(s.surface, voters);
 }
 
 void measure(Facet& facet, const Segmentation& s) {

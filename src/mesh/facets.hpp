@@ -49,7 +49,7 @@ struct Segmentation : Cut {
 /// Segments a surface.
 ///
 /// Thin-walled pieces: a point whose inward ray meets a parallel surface from behind at 0.5 to 1.8 wall
-/// thicknesses is original surface, and so are facets that are wider than what is behind them is thick (a foot); the rest is fracture; then
+/// thicknesses is original surface, and so are facets about as wide as what is behind them is thick, or wider (a foot); the rest is fracture; then
 /// points follow their surroundings.  Solid pieces: every facet counts as fracture, as
 /// roughness does not tell a break from a carved or weathered surface.  Facets grow over smoothed normals from
 /// the flattest places, until they have bent by an angle; of solid pieces they are cut along the creases, too, as a break that
