@@ -225,22 +225,45 @@ TEST(Facets, BreakThatRunsAskewThroughAWallIsNoWall) {
             0.97);
 }
 
-TEST(Facets, WallThatThickensIsNoBreak) {
-  // As of a vessel's foot: 6 thick up to a half of the plate, 16 in its last third.
-  Mesh plate = box({80, 60, 6}, 80, flat);
-  const auto thickness = [](float x) {
-    const float t = std::clamp((x - 35.0F) / 20.0F, 0.0F, 1.0F);
-    return 6.0F + 10.0F * t * t * (3.0F - 2.0F * t);
-  };
-  for (glm::vec3& p : plate.vertices) p.z *= thickness(p.x) / 6.0F;
-  const Segmentation s = segment(plate);
-  ASSERT_NEAR(s.wall_thickness, 6.0, 0.3);
-  const auto off_ends = [](const glm::vec3& p) { return std::min({p.x, 80.0F - p.x, p.y, 60.0F - p.y}); };
+/// A plate of 60 across, as thick as this at every place along it.
+template <class Thickness>
+Mesh plate_as_thick_as(float length, Thickness thickness) {
+  Mesh plate = box({length, 60, 1}, 80, flat);
+  for (glm::vec3& p : plate.vertices) p.z *= thickness(p.x);
+  return plate;
+}
+
+/// Expects that its sides are walls and its ends breaks.
+template <class Thickness>
+void expect_walls(const Segmentation& s, float length, Thickness thickness) {
+  const auto off_ends = [&](const glm::vec3& p) { return std::min({p.x, length - p.x, p.y, 60.0F - p.y}); };
   const auto off_walls = [&](const glm::vec3& p) { return std::min(p.z, thickness(p.x) - p.z); };
   EXPECT_GT(share_of(s, Surface::Original, [&](const glm::vec3& p) { return off_ends(p) > 2.0F; }), 0.99);
   EXPECT_GT(share_of(s, Surface::Fracture,
                      [&](const glm::vec3& p) { return off_ends(p) < 0.01F && off_walls(p) > 1.0F; }),
             0.97);
+}
+
+/// From 0 to 1 between two places, without a crease.
+float smooth_step(float from, float to, float x) {
+  const float t = std::clamp((x - from) / (to - from), 0.0F, 1.0F);
+  return t * t * (3.0F - 2.0F * t);
+}
+
+TEST(Facets, WallThatThickensIsNoBreak) {
+  // As towards a vessel's foot.
+  const auto thickness = [](float x) { return 6.0F + 10.0F * smooth_step(35.0F, 55.0F, x); };
+  const Segmentation s = segment(plate_as_thick_as(80.0F, thickness));
+  ASSERT_NEAR(s.wall_thickness, 6.0, 0.3);
+  expect_walls(s, 80.0F, thickness);
+}
+
+TEST(Facets, WallMuchThinnerThanMostIsNoBreak) {
+  // As of a piece of the foot itself.
+  const auto thickness = [](float x) { return 16.0F - 10.0F * smooth_step(50.0F, 70.0F, x); };
+  const Segmentation s = segment(plate_as_thick_as(95.0F, thickness));
+  ASSERT_NEAR(s.wall_thickness, 16.0, 0.5);
+  expect_walls(s, 95.0F, thickness);
 }
 
 TEST(Facets, WallsOfANoisyScanAreWalls) {

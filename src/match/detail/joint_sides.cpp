@@ -12,8 +12,7 @@ constexpr double kTableCell = 2.0;      // spacings: side of the cells of tables
 constexpr double kTableReach = 20.0;    // tolerances: how far a quick alignment looks
 constexpr double kWallTableCell = 3.0;  // the same for walls, which are smooth
 
-/// \param wall  thickness of the walls that are compared, 0 where there are none
-Side side_of(const mesh::Segmentation& s, double edge_radius, double wall) {
+Side side_of(const mesh::Segmentation& s, double edge_radius) {
   Side side;
   side.sample_area = s.sample_area;
   side.body.points = s.samples.points;
@@ -42,12 +41,12 @@ Side side_of(const mesh::Segmentation& s, double edge_radius, double wall) {
     }));
   }
   side.broken_index = std::make_unique<mesh::PointIndex>(side.broken.points);
-  if (wall > 0) {
+  if (s.wall_thickness > 0) {
     for (std::size_t i = 0; i < s.samples.size(); ++i) {
       if (s.surface[i] != mesh::Surface::Original) continue;
-      const auto seam =
-          side.broken_index->nearest_within(s.samples.points[i], static_cast<float>(kWallNear * wall));
-      if (!seam || seam->second < kWallClear * wall) continue;
+      const auto seam = side.broken_index->nearest_within(s.samples.points[i],
+                                                          static_cast<float>(kWallNear * s.wall_thickness));
+      if (!seam || seam->second < kWallClear * s.wall_thickness) continue;
       side.all_walls.push_back(static_cast<std::uint32_t>(side.walls.points.size()));
       side.walls.points.push_back(s.samples.points[i]);
       side.walls.normals.push_back(s.normals[i]);
@@ -72,9 +71,9 @@ JointLengths lengths_of(const Fragment& a, const Fragment& b) {
 std::shared_ptr<const Side> side_of(const Fragment& fragment, const JointLengths& lengths) {
   const double edge = std::max(0.2 * lengths.thickness, 1.2 * lengths.spacing);
   if (fragment.facets.samples.spacing <= lengths.spacing)
-    return std::make_shared<const Side>(side_of(fragment.facets, edge, lengths.thickness));
+    return std::make_shared<const Side>(side_of(fragment.facets, edge));
   return std::make_shared<const Side>(
-      side_of(mesh::denser(fragment.facets, fragment.surface, lengths.spacing), edge, lengths.thickness));
+      side_of(mesh::denser(fragment.facets, fragment.surface, lengths.spacing), edge));
 }
 
 }  // namespace
