@@ -65,7 +65,7 @@ class OutlineAssembleCommand final : public Command {
     apply_calibration(calibration_, method_, multiscale);
     if (out_) require_out();  // first, for --json may lie in it
     if (json_) require_writable_file(*json_);
-    const outline::PieceSet set = load_folder(folder_, pictures_, console);
+    const outline::PieceSet set = load_folder(folder_, pictures_, console, context);
     const std::size_t count = set.pieces.size();
     if (count < 2) throw InputError(folder_, "holds one piece only", "give a folder of pieces");
     search_pairs_in_full(count * (count - 1) / 2, multiscale);
@@ -88,7 +88,7 @@ class OutlineAssembleCommand final : public Command {
     if (!assembly.unplaced.empty() && method_ != OutlineMethod::Lcs)
       console.result("  what lies upside down fits nowhere either; --method lcs finds it\n");
     if (json_) console.result(fmt::format("wrote {}\n", *json_));
-    if (out_ && !assembly.cancelled) write_pictures(set.pieces, assembly, console);
+    if (out_ && !assembly.cancelled) write_pictures(set.pieces, assembly, console, context);
     return assembly.cancelled ? kInterrupted : finished_with(set, console);
   }
 
@@ -105,13 +105,15 @@ class OutlineAssembleCommand final : public Command {
   }
 
   void write_pictures(const std::vector<outline::Piece>& pieces, const outline::Assembly& assembly,
-                      Console& console) const {
+                      Console& console, const Context& context) const {
+    context.report("drawing pictures", 0.0);  // reads all scans again
     std::vector<std::filesystem::path> files{std::filesystem::path(*out_) / "pieces.png"};
     outline::write_pieces_picture(files[0], pieces);
     for (auto& file : outline::write_assembly_pictures(*out_, pieces, assembly))
       files.push_back(std::move(file));
     files.push_back(std::filesystem::path(*out_) / "similarity.png");
     report::write_similarity_picture(files.back(), pieces, assembly);
+    console.end_progress();
     for (const std::filesystem::path& file : files) console.result(fmt::format("wrote {}\n", file.string()));
   }
 

@@ -55,7 +55,7 @@ class OutlineCalibrateCommand final : public Command {
       require_apart("--json", *json_, path);
       require_writable_file(*json_);
     }
-    const outline::PieceSet set = load_folder(folder_, pictures_, console);
+    const outline::PieceSet set = load_folder(folder_, pictures_, console, context);
     const std::vector<outline::KnownJoin> joins = read_known_joins(path, set.pieces);
     const std::vector<outline::CalibratedLevel> levels =
         outline::calibrate(set.pieces, joins, options_, context);

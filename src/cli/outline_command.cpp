@@ -23,9 +23,10 @@ outline::PieceSet read_file_or_end(const std::string& path, const outline::Extra
   return outline::read_pieces(path, options);
 }
 
-outline::PieceSet read_folder_or_end(const std::string& folder, const outline::ExtractOptions& options) {
+outline::PieceSet read_folder_or_end(const std::string& folder, const outline::ExtractOptions& options,
+                                     const Context& context) {
   const NothingToSave guard;
-  return outline::read_folder(folder, options);
+  return outline::read_folder(folder, options, context);
 }
 
 /// A true join's score is hardly ever below.
@@ -151,8 +152,9 @@ outline::Piece load_piece(const PieceName& name, const outline::ExtractOptions& 
 }
 
 outline::PieceSet load_folder(const std::string& folder, const outline::ExtractOptions& options,
-                              Console& console) {
-  outline::PieceSet set = read_folder_or_end(folder, options);
+                              Console& console, const Context& context) {
+  outline::PieceSet set = read_folder_or_end(folder, options, context);
+  console.end_progress();
   for (const std::string& note : set.notes) console.warning(note);
   for (const outline::LeftOut& file : set.unusable) console.warning(file.reason);
   for (const outline::LeftOut& piece : set.repeated) console.warning(piece.reason);

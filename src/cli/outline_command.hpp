@@ -71,7 +71,7 @@ outline::Piece load_piece(const PieceName& name, const outline::ExtractOptions& 
 
 /// The pieces of a folder; tells of repairs, of files that cannot be used and of copies.
 outline::PieceSet load_folder(const std::string& folder, const outline::ExtractOptions& options,
-                              Console& console);
+                              Console& console, const Context& context);
 
 /// The exit code of a command that has used a folder: kFailure, told, if a file of it could not be used.
 ExitCode finished_with(const outline::PieceSet& set, Console& console);

@@ -245,7 +245,7 @@ bool add_file(const fs::path& file, const ExtractOptions& options, PieceSet& all
   }
 }
 
-PieceSet read_folder(const std::string& folder, const ExtractOptions& options) {
+PieceSet read_folder(const std::string& folder, const ExtractOptions& options, const Context& context) {
   std::error_code problem;
   std::vector<fs::path> files;
   std::vector<fs::path> others;
@@ -285,8 +285,12 @@ PieceSet read_folder(const std::string& folder, const ExtractOptions& options) {
          fmt::format("{}: is a picture of a kind that is not read; save it as png, jpg or tif",
                      file.string())});
   }
-  std::erase_if(files, [&](const fs::path& file) { return !add_file(file, options, all); });
-  const auto doubt = doubt_resolutions({files.begin(), files.end()});
+  std::vector<std::string> usable;
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    context.report("reading pieces", static_cast<double>(k) / static_cast<double>(files.size()));
+    if (add_file(files[k], options, all)) usable.push_back(files[k].string());
+  }
+  const auto doubt = doubt_resolutions(usable);
   if (doubt) all.notes.push_back(*doubt);
   if (const auto mirrored = doubt_axes(all.pieces)) all.notes.push_back(*mirrored);
   detail::take_out_repeats(all);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/context.hpp"
 #include "outline/extract.hpp"
 #include "outline/outline.hpp"
 
@@ -44,7 +45,8 @@ PieceSet read_pieces(const std::string& path, const ExtractOptions& options = {}
 /// A file whose name is no UTF-8 is unusable: results are JSON, in which names are keys.
 /// \throws IoError    no such folder
 /// \throws InputError no file in it is known, or none can be used
-PieceSet read_folder(const std::string& folder, const ExtractOptions& options = {});
+PieceSet read_folder(const std::string& folder, const ExtractOptions& options = {},
+                     const Context& context = Context());
 
 /// What to say of pieces of which some have y up and some down, which their coordinates are compared as if they had not;
 /// nullopt: all have it the same way.  read_folder() has it in its notes.

@@ -302,7 +302,13 @@ TEST_F(Read, CardsOfOneSizeWithOtherTextAreNoCopies) {
   card("a.png", "No. 17");
   card("b.png", "No. 18");
   card("b copy.jpg", "No. 18");
-  const PieceSet set = read_folder(folder_.string());
+  std::vector<double> told;
+  const Context context([&](std::string_view stage, double fraction) {
+    EXPECT_EQ(stage, "reading pieces");
+    told.push_back(fraction);
+  });
+  const PieceSet set = read_folder(folder_.string(), {}, context);
+  EXPECT_EQ(told, std::vector<double>({0.0, 1.0 / 3.0, 2.0 / 3.0}));
   ASSERT_EQ(set.pieces.size(), 2U);
   ASSERT_EQ(set.repeated.size(), 1U);
   EXPECT_EQ(set.repeated[0].name, "b copy.jpg");
