@@ -91,6 +91,12 @@ class ShatterCommand final : public Command {
       console.warning("interrupted; nothing is written");
       return kInterrupted;
     }
+    if (shattered.contacts.empty()) {
+      console.warning(fmt::format(
+          "{}: no two fragments touch: edges of {:.3g} % of its diameter are too long for so thin a "
+          "wall, or the breaks are too worn; give a smaller --spacing or --erosion",
+          path_, spacing_));
+    }
     const std::filesystem::path folder(out_);
     for (std::size_t k = 0; k < shattered.pieces.size(); ++k) {
       mesh::save(folder / file_name(k, shattered.pieces.size()), shattered.pieces[k].scan);

@@ -136,6 +136,21 @@ TEST(RepairedFileTest, AWarningNamesTheFileOnce) {
   }
 }
 
+TEST(ShatterTest, TellsThatAWallIsTooThinForItsGrid) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "plate.off";
+  write_file(path,
+             "OFF\n8 6 0\n0 0 0\n500 0 0\n500 400 0\n0 400 0\n0 0 4\n500 0 4\n500 400 4\n0 400 4\n"
+             "4 3 2 1 0\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n");
+  const Finished finished =
+      run({"shatter", path, "--out", folder / "pieces", "--pieces", "3", "--spacing", "0.9"});
+  EXPECT_EQ(finished.exit_code, 0);
+  EXPECT_NE(
+      finished.err.find("warning: " + path + ": no two fragments touch: edges of 0.9 % of its diameter"),
+      std::string::npos)
+      << finished.err;
+}
+
 TEST(BadPlace, MissingFileIsNamed) {
   expect_failure(run({"facets", "no/such/scan.ply"}), "no/such/scan.ply");
 }
