@@ -238,7 +238,8 @@ Polygon mend_polygon(Polygon polygon, const std::string& subject, std::vector<st
   }
   const double area = signed_area(polygon);
   if (area == 0.0) throw InputError(subject, "the outline encloses no area", "give a closed border");
-  if (area < 0.0) std::reverse(polygon.begin(), polygon.end());
+  if (area < 0.0)
+    std::reverse(polygon.begin() + 1, polygon.end());  // places are told from the first point on
   return polygon;
 }
 

@@ -43,7 +43,7 @@ std::optional<double> open_ends(const std::vector<glm::dvec2>& line);
 std::optional<std::string> doubt_ends(const std::vector<glm::dvec2>& line);
 
 /// Makes an outline of a closed polygon: takes out repeated points, cuts off small loops where it crosses itself, and
-/// turns it so that its area is positive.
+/// turns it so that its area is positive; the first point stays the first.
 /// \param subject  file and place for messages
 /// \param notes    gets a sentence for each repair
 /// \throws InputError fewer than 4 distinct points are left (a triangle tells nothing of where it broke), a point is not

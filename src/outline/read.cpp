@@ -60,7 +60,7 @@ Outline outline_of(detail::Rings& rings, const std::string& subject, std::vector
     try {
       std::vector<glm::dvec2> hole = mend_polygon(std::move(rings.rings[h]), name, notes);
       require_inside(outline.points, hole, name);
-      std::reverse(hole.begin(), hole.end());
+      std::reverse(hole.begin() + 1, hole.end());
       outline.holes.push_back(std::move(hole));
     } catch (const InputError& error) {
       notes.push_back(fmt::format("{} (left out)", error.what()));
