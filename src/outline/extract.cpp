@@ -142,12 +142,10 @@ Loops sort_loops(std::vector<Polygon> all) {
   return loops;
 }
 
-/// Leaves out what is smaller than an area.
+/// The first that is smaller than an area.
 /// \param polygons  largest first
-void drop_below(double area, std::vector<Polygon>& polygons) {
-  const auto first =
-      std::ranges::find_if(polygons, [&](const Polygon& p) { return std::abs(signed_area(p)) < area; });
-  polygons.erase(first, polygons.end());
+std::vector<Polygon>::iterator first_below(double area, std::vector<Polygon>& polygons) {
+  return std::ranges::find_if(polygons, [&](const Polygon& p) { return std::abs(signed_area(p)) < area; });
 }
 
 /// Gives each hole to the smallest piece around it.
@@ -268,20 +266,20 @@ void judge_cut_pieces(std::vector<Polygon>& outer, const cv::Mat& image, std::ve
 }
 
 /// Leaves out what is dust beside the largest piece, and tells if it may be none.
-/// \param outer  largest first   \param percent  of the largest's area
-void drop_dust(std::vector<Polygon>& outer, double percent, std::vector<std::string>& notes) {
-  const double least = percent / 100.0 * signed_area(outer[0]);
-  const std::vector<Polygon> all = outer;
-  drop_below(least, outer);
-  const auto doubtful = std::count_if(
-      all.begin() + static_cast<std::ptrdiff_t>(outer.size()), all.end(),
-      [&](const Polygon& p) { return signed_area(p) >= std::max(kLargestSpeck, kDoubtfulDust * least); });
-  if (doubtful == 0) return;
-  notes.push_back(
-      fmt::format("{} with less than {:.3g} % of the largest's area {} taken for dust, the largest "
-                  "{}: --dust says how much is",
-                  counted(static_cast<std::size_t>(doubtful), "piece"), percent, doubtful == 1 ? "is" : "are",
-                  place_of(all[outer.size()])));
+/// \param percent  of the largest's area
+void drop_dust(Loops& loops, double percent, std::vector<std::string>& notes) {
+  const double least = percent / 100.0 * signed_area(loops.outer[0]);
+  loops.holes.erase(first_below(least, loops.holes), loops.holes.end());
+  const auto dust = first_below(least, loops.outer);
+  const auto specks = first_below(std::max(kLargestSpeck, kDoubtfulDust * least), loops.outer);
+  if (dust < specks) {
+    const auto count = static_cast<std::size_t>(specks - dust);
+    notes.push_back(fmt::format(
+        "{} with less than {:.3g} % of the largest's area {} taken for dust, the largest {}: --dust "
+        "says how much is",
+        counted(count, "piece"), percent, count == 1 ? "is" : "are", place_of(*dust)));
+  }
+  loops.outer.erase(dust, loops.outer.end());
 }
 
 }  // namespace
@@ -295,8 +293,7 @@ Extraction extract(const std::string& path, const ExtractOptions& options) {
     throw InputError(path, "no piece: what stands out is smaller than a few pixels", "scan with more pixels");
   }
   std::move(coverage.notes.begin(), coverage.notes.end(), std::back_inserter(result.notes));
-  drop_below(options.dust / 100.0 * signed_area(loops.outer[0]), loops.holes);
-  drop_dust(loops.outer, options.dust, result.notes);
+  drop_dust(loops, options.dust, result.notes);
   if (!coverage.distance.empty()) require_no_print(loops.outer, coverage.distance, path);
   judge_cut_pieces(loops.outer, image, result.notes);
   if (!coverage.distance.empty()) doubt_background(loops.outer, coverage.distance, result.notes);

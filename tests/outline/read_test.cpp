@@ -291,6 +291,17 @@ TEST_F(Read, OnePictureInSeveralFormatsIsOnePiece) {
   EXPECT_EQ(set.repeated.size(), 2U);
 }
 
+TEST_F(Read, FolderTellsHowFarItIs) {
+  for (const char* name : {"a.csv", "b.csv", "c.csv"}) write(name, "0,0\n9,0\n9,7\n0,8\n");
+  std::vector<double> told;
+  const Context context([&](std::string_view stage, double fraction) {
+    EXPECT_EQ(stage, "reading pieces");
+    told.push_back(fraction);
+  });
+  EXPECT_FALSE(read_folder(folder_.string(), {}, context).pieces.empty());
+  EXPECT_EQ(told, std::vector<double>({0.0, 1.0 / 3.0, 2.0 / 3.0}));
+}
+
 TEST_F(Read, CardsOfOneSizeWithOtherTextAreNoCopies) {
   const auto card = [&](const char* name, const char* text) {
     cv::Mat image(200, 300, CV_8UC3, cv::Scalar(90, 60, 40));
@@ -302,13 +313,7 @@ TEST_F(Read, CardsOfOneSizeWithOtherTextAreNoCopies) {
   card("a.png", "No. 17");
   card("b.png", "No. 18");
   card("b copy.jpg", "No. 18");
-  std::vector<double> told;
-  const Context context([&](std::string_view stage, double fraction) {
-    EXPECT_EQ(stage, "reading pieces");
-    told.push_back(fraction);
-  });
-  const PieceSet set = read_folder(folder_.string(), {}, context);
-  EXPECT_EQ(told, std::vector<double>({0.0, 1.0 / 3.0, 2.0 / 3.0}));
+  const PieceSet set = read_folder(folder_.string());
   ASSERT_EQ(set.pieces.size(), 2U);
   ASSERT_EQ(set.repeated.size(), 1U);
   EXPECT_EQ(set.repeated[0].name, "b copy.jpg");
