@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "batch/inputs.hpp"
@@ -80,10 +81,14 @@ class AssembleCommand final : public Command {
       read_constraints(*constraints, names_in(input_));  // before hours of matching
     }
     hints_.read_into(matching, input_);
-    const AssembleInput input = read_assemble_input(input_, keep, matching, console, context);
+    AssembleInput input = read_assemble_input(input_, keep, matching, console, context);
     if (context.cancelled()) return stopped(console);
     require_no_loss(input, files);
-    if (constraints) options_.constraints = read_constraints(*constraints, input.names, input.bad);
+    if (constraints) {
+      AskedConstraints asked = read_constraints(*constraints, input.names, input.bad);
+      options_.constraints = std::move(asked.constraints);
+      input.left_out = std::move(asked.left_out);
+    }
     const assembly::Result result = assembly::assemble(input.fragments, input.links, options_, context);
     console.end_progress();
     for (const std::string& warning : warnings_of(input, result)) console.warning(warning);

@@ -26,7 +26,7 @@ class Reader {
          const std::map<std::string, std::string>& unusable)
       : path_(file.path), text_(file.text), names_(names), unusable_(unusable) {}
 
-  assembly::Constraints read() const {
+  AskedConstraints read() {
     const ordered_json json = parsed();
     if (json.is_discarded())
       throw InputError(path_, fmt::format("is no JSON ({})", json_fault(text_)), kMend);
@@ -35,7 +35,7 @@ class Reader {
       if (key != "must_join" && key != "must_not_join" && key != "poses")
         fail(fmt::format("knows no \"{}\"", key));
     }
-    assembly::Constraints constraints;
+    assembly::Constraints& constraints = asked_.constraints;
     constraints.must_join = pairs(json, "must_join");
     constraints.must_not_join = pairs(json, "must_not_join");
     for (const auto& pair : constraints.must_join) {
@@ -45,7 +45,7 @@ class Reader {
                          names_[pair.second]));
     }
     constraints.pinned = poses(json);
-    return constraints;
+    return asked_;
   }
 
  private:
@@ -67,11 +67,15 @@ class Reader {
 
   [[noreturn]] void fail(const std::string& problem) const { throw InputError(path_, problem, kMend); }
 
-  std::size_t number_of(const ordered_json& name, const std::string& place) const {
+  /// \return nothing if it is a fragment that cannot be used
+  std::optional<std::size_t> number_of(const ordered_json& name, const std::string& place) {
     if (!name.is_string()) fail(place + " is no name of a fragment");
     const auto unusable = unusable_.find(name.get<std::string>());
-    if (unusable != unusable_.end())
-      fail(fmt::format("{}: \"{}\" can have no place ({})", place, unusable->first, unusable->second));
+    if (unusable != unusable_.end()) {
+      asked_.left_out.push_back(fmt::format("{}: {} is left out, as \"{}\" can have no place ({})", path_,
+                                            place, unusable->first, unusable->second));
+      return std::nullopt;
+    }
     const auto found = std::find(names_.begin(), names_.end(), name.get<std::string>());
     if (found == names_.end())
       fail(fmt::format("{}: there is no fragment \"{}\"{}", place, name.get<std::string>(),
@@ -86,7 +90,7 @@ class Reader {
     return meant == names_.end() ? "" : fmt::format(" (\"{}\"?)", *meant);
   }
 
-  Pairs pairs(const ordered_json& json, const std::string& key) const {
+  Pairs pairs(const ordered_json& json, const std::string& key) {
     Pairs result;
     if (!json.contains(key)) return result;
     if (!json[key].is_array()) fail(fmt::format("\"{}\" is no list of pairs", key));
@@ -94,28 +98,30 @@ class Reader {
       const ordered_json& pair = json[key][k];
       const std::string place = fmt::format("\"{}\"[{}]", key, k);
       if (!pair.is_array() || pair.size() != 2) fail(place + " is no pair of names");
-      const std::size_t a = number_of(pair[0], place);
-      const std::size_t b = number_of(pair[1], place);
-      if (a == b) fail(place + " names the same fragment twice");
-      result.emplace_back(std::min(a, b), std::max(a, b));
+      const auto a = number_of(pair[0], place);
+      const auto b = number_of(pair[1], place);
+      if (!a || !b) continue;
+      if (*a == *b) fail(place + " names the same fragment twice");
+      result.emplace_back(std::min(*a, *b), std::max(*a, *b));
     }
     return result;
   }
 
-  std::vector<std::pair<std::size_t, Rigid>> poses(const ordered_json& json) const {
+  std::vector<std::pair<std::size_t, Rigid>> poses(const ordered_json& json) {
     std::vector<std::pair<std::size_t, Rigid>> result;
     if (!json.contains("poses")) return result;
     if (!json["poses"].is_object()) fail("\"poses\" is no object of names and matrices");
     for (const auto& [name, rows] : json["poses"].items()) {
       const std::string place = fmt::format("\"poses\".\"{}\"", name);
-      const std::size_t number = number_of(name, place);
+      const auto number = number_of(name, place);
+      if (!number) continue;
       const std::optional<Rigid> pose =
           rows.is_string() ? read_pose(std::filesystem::path(path_).parent_path() / rows.get<std::string>())
                            : rigid_from_json(rows);
       if (!pose) fail(fmt::format("{} {}", place, kNoRigid));
-      if (std::any_of(result.begin(), result.end(), [&](const auto& p) { return p.first == number; }))
+      if (std::any_of(result.begin(), result.end(), [&](const auto& p) { return p.first == *number; }))
         fail(place + " is given twice");
-      result.emplace_back(number, *pose);
+      result.emplace_back(*number, *pose);
     }
     return result;
   }
@@ -124,6 +130,7 @@ class Reader {
   const std::string& text_;
   const std::vector<std::string>& names_;
   const std::map<std::string, std::string>& unusable_;
+  AskedConstraints asked_;
 };
 
 }  // namespace
@@ -132,8 +139,8 @@ ConstraintsFile open_constraints(const std::string& path) {
   return {path, read_json_text(path, kMend)};
 }
 
-assembly::Constraints read_constraints(const ConstraintsFile& file, const std::vector<std::string>& names,
-                                       const std::map<std::string, std::string>& unusable) {
+AskedConstraints read_constraints(const ConstraintsFile& file, const std::vector<std::string>& names,
+                                  const std::map<std::string, std::string>& unusable) {
   return Reader(file, names, unusable).read();
 }
 

@@ -15,16 +15,23 @@ struct ConstraintsFile {
   std::string text;
 };
 
+/// What a file of constraints asks for.
+struct AskedConstraints {
+  assembly::Constraints constraints;
+  std::vector<std::string>
+      left_out;  ///< of those that name a fragment that cannot be used: which, and the reason
+};
+
 /// \throws IoError it cannot be read   \throws InputError it is nested without end
 ConstraintsFile open_constraints(const std::string& path);
 
 /// Reads {"must_join": [[A, B], ...], "must_not_join": [[A, B], ...], "poses": {A: 4 x 4, ...}}; every part may be missing.  A pose may
 /// be the name of a file with the 4 x 4 numbers, from the folder of the constraints.
 /// \param names     of the fragments; those in the file are these
-/// \param unusable  other fragments, with the reasons, for the message
+/// \param unusable  other fragments, with the reasons: what names one of them is left out
 /// \throws IoError a file of a pose cannot be read
 /// \throws InputError it is no such file, names a fragment that is not there, a fragment with itself, or a pair as both
-assembly::Constraints read_constraints(const ConstraintsFile& file, const std::vector<std::string>& names,
-                                       const std::map<std::string, std::string>& unusable = {});
+AskedConstraints read_constraints(const ConstraintsFile& file, const std::vector<std::string>& names,
+                                  const std::map<std::string, std::string>& unusable = {});
 
 }  // namespace rejoin::cli

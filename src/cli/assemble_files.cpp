@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
@@ -100,8 +102,9 @@ std::vector<std::string> with_names(const std::vector<std::string>& texts,
 }
 
 /// As the user's file has them, and what became of them.
-ordered_json constraints_json(const std::vector<std::string>& names, const assembly::Constraints& constraints,
+ordered_json constraints_json(const AssembleInput& input, const assembly::Constraints& constraints,
                               const assembly::Result& result) {
+  const std::vector<std::string>& names = input.names;
   const auto pairs = [&](const std::vector<std::pair<std::size_t, std::size_t>>& list) {
     ordered_json json = ordered_json::array();
     for (const auto& [a, b] : list) json.push_back({names[a], names[b]});
@@ -109,10 +112,12 @@ ordered_json constraints_json(const std::vector<std::string>& names, const assem
   };
   ordered_json poses = ordered_json::object();
   for (const auto& [fragment, pose] : constraints.pinned) poses[names[fragment]] = to_json(pose);
+  std::vector<std::string> problems = input.left_out;
+  std::ranges::copy(with_names(result.warnings, names), std::back_inserter(problems));
   return {{"must_join", pairs(constraints.must_join)},
           {"must_not_join", pairs(constraints.must_not_join)},
           {"poses", poses},
-          {"problems", with_names(result.warnings, names)}};
+          {"problems", problems}};
 }
 
 std::vector<report::PlacedFragment> placed_fragments(const AssembleInput& input,
@@ -158,6 +163,7 @@ std::vector<std::string> warnings_of(const AssembleInput& input, const assembly:
   std::vector<std::string> list = input.warnings;
   const std::string missing = store::told(input.remains);
   if (!missing.empty()) list.push_back(missing);
+  std::ranges::copy(input.left_out, std::back_inserter(list));
   for (const auto* texts : {&result.warnings, &result.doubts})
     for (const std::string& text : with_names(*texts, input.names)) list.push_back(text);
   return list;
@@ -189,7 +195,7 @@ std::string assembly_json(const AssembleInput& input, const assembly::Constraint
                   {"unplaced", unplaced},
                   {"groups", result.groups},
                   {"pairs_missing", input.remains.missing},
-                  {"constraints", constraints_json(input.names, constraints, result)},
+                  {"constraints", constraints_json(input, constraints, result)},
                   {"doubts", with_names(result.doubts, input.names)},
                   {"warnings", warnings_of(input, result)},
                   {"interrupted", result.cancelled},

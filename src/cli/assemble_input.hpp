@@ -23,6 +23,7 @@ struct AssembleInput {
   std::vector<assembly::Link> links;
   store::Remains remains;             ///< of the run
   std::vector<std::string> warnings;  ///< what else the user should know of the run
+  std::vector<std::string> left_out;  ///< constraints that name fragments which cannot be used
   bool failed_now = false;            ///< scans or pairs failed while a folder was matched; told
   std::vector<std::string> lost;      ///< names of scans that were matched and cannot be used any more; told
   std::map<std::string, std::string> bad;  ///< fragments that cannot be used or are copies, with the reason

@@ -84,7 +84,7 @@ class Reader {
       read_assembly(json);
       return;
     }
-    const assembly::Constraints constraints = read_constraints({path_, text_}, names_);
+    const assembly::Constraints constraints = read_constraints({path_, text_}, names_).constraints;
     if (!constraints.must_join.empty() || !constraints.must_not_join.empty())
       fail("says which pairs must or must not join, which no search by a layout heeds",
            "leave its \"poses\" alone here, and give the rest to rejoin assemble --constraints");

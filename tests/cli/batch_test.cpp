@@ -244,10 +244,14 @@ TEST_F(Batch, SameScanUnderTwoNamesIsToldAndLeftOutByWholeRunsAndShards) {
   EXPECT_EQ(merged.out.find("still to be done"), std::string::npos) << merged.out;
   EXPECT_EQ(content(folder_ / "whole"), content(run_));
 
-  const Finished assembled = run({"assemble", run_});
+  write_file(folder_ / "wishes.json", R"({"must_not_join": [["b7.ply", "a7.ply"]]})");
+  const Finished assembled = run({"assemble", run_, "--constraints", folder_ / "wishes.json"});
   ASSERT_EQ(assembled.exit_code, 0) << assembled.err;
+  EXPECT_NE(assembled.err.find("\"must_not_join\"[0] is left out"), std::string::npos) << assembled.err;
   const json assembly = json::parse(read_file(run_ + "/assembly.json"));
   EXPECT_EQ(assembly["fragments"]["b7.ply"]["reason"], "is the same scan as a9.ply, which stands for both");
+  EXPECT_EQ(assembly["constraints"]["must_not_join"], json::array());
+  EXPECT_EQ(assembly["constraints"]["problems"].size(), 1U);
 }
 
 TEST_F(Batch, RunKnowsItsScansFromAnyFolderAndKeepsTheirSurfacesWhereTheyAreGone) {

@@ -12,12 +12,16 @@ namespace {
 
 const std::vector<std::string> kNames{"a.ply", "b \"x\".ply", "c.ply"};
 
-assembly::Constraints read(const std::string& content) {
+AskedConstraints read_all(const std::string& content) {
   const TemporaryFolder folder;
   const std::string path = folder / "wishes.json";
   write_file(path, content);
   return read_constraints(open_constraints(path), kNames,
                           {{"copy.ply", "is the same scan as a.ply, which stands for both"}});
+}
+
+assembly::Constraints read(const std::string& content) {
+  return read_all(content).constraints;
 }
 
 TEST(ReadConstraints, FindsPairsAndPosesByName) {
@@ -39,7 +43,7 @@ TEST(ReadConstraints, TakesAPoseFromTheFileOfAMatrixBesideThem) {
   write_file(folder / "cloudcompare/c.txt", "0 -1 0 5\n1 0 0 6\n0 0 1 7\n0 0 0 1\n");
   write_file(folder / "wishes.json", R"({"poses": {"c.ply": "cloudcompare/c.txt"}})");
   const assembly::Constraints constraints =
-      read_constraints(open_constraints(folder / "wishes.json"), kNames);
+      read_constraints(open_constraints(folder / "wishes.json"), kNames).constraints;
   ASSERT_EQ(constraints.pinned.size(), 1U);
   EXPECT_EQ(constraints.pinned[0].first, 2U);
   EXPECT_EQ(constraints.pinned[0].second({1, 0, 0}), glm::dvec3(5, 7, 7));
@@ -85,6 +89,18 @@ TEST(ReadConstraints, AnEmptyObjectAsksForNothing) {
   const assembly::Constraints constraints = read("{}");
   EXPECT_TRUE(constraints.must_join.empty() && constraints.must_not_join.empty() &&
               constraints.pinned.empty());
+}
+
+TEST(ReadConstraints, LeavesOutWhatNamesAFragmentThatCannotBeUsedAndTellsIt) {
+  const AskedConstraints asked = read_all(R"({"must_join": [["a.ply", "copy.ply"], ["a.ply", "c.ply"]],
+                   "poses": {"copy.ply": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}})");
+  ASSERT_EQ(asked.constraints.must_join.size(), 1U);
+  EXPECT_EQ(asked.constraints.must_join[0], (std::pair<std::size_t, std::size_t>(0, 2)));
+  EXPECT_TRUE(asked.constraints.pinned.empty());
+  ASSERT_EQ(asked.left_out.size(), 2U);
+  for (const char* part : {"wishes.json: \"must_join\"[0]", "copy.ply", "same scan as a.ply"})
+    EXPECT_NE(asked.left_out[0].find(part), std::string::npos) << asked.left_out[0];
+  EXPECT_NE(asked.left_out[1].find("\"poses\".\"copy.ply\""), std::string::npos) << asked.left_out[1];
 }
 
 struct Hostile {
