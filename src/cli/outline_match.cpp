@@ -12,6 +12,7 @@
 #include "cli/outline_rims.hpp"
 #include "cli/outputs.hpp"
 #include "core/files.hpp"
+#include "core/png_mark.hpp"
 #include "mesh/load.hpp"
 #include "outline/stitch.hpp"
 #include "report/outline_pictures.hpp"
@@ -118,6 +119,10 @@ class OutlineMatchCommand final : public Command {
     for (const std::filesystem::path& file : report::outline_match_pictures(*out_)) {
       require_apart("--out", file, a);
       require_apart("--out", file, b);
+      std::error_code ignored;
+      if (std::filesystem::exists(file, ignored) && !is_marked_png_file(file))
+        throw UsageError(file.string(), "is no picture of this program and would be lost",
+                         "give --out another place");
     }
   }
 

@@ -1,6 +1,7 @@
 #include "core/png_mark.hpp"
 
 #include <cstdint>
+#include <fstream>
 
 namespace rejoin {
 namespace {
@@ -40,6 +41,13 @@ bool is_marked_png(std::string_view bytes) {
   constexpr std::size_t kLength = 4;
   return bytes.starts_with("\x89PNG") && bytes.size() > kAfterHeader + kLength &&
          bytes.substr(kAfterHeader + kLength).starts_with(kKindAndText);
+}
+
+bool is_marked_png_file(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string start(kAfterHeader + 8 + kKindAndText.size(), '\0');
+  stream.read(start.data(), static_cast<std::streamsize>(start.size()));
+  return is_marked_png(start);
 }
 
 }  // namespace rejoin

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -131,15 +130,6 @@ void lay(cv::Mat canvas, const cv::Mat& colours, const cv::Mat& mask) {
   }
 }
 
-/// Whether a file is a PNG that this program wrote.
-bool is_ours(const std::filesystem::path& file) {
-  constexpr std::size_t kEnough = 64;
-  std::ifstream stream(file, std::ios::binary);
-  std::string start(kEnough, '\0');
-  stream.read(start.data(), static_cast<std::streamsize>(start.size()));
-  return is_marked_png(start);
-}
-
 /// Takes pictures of objects away that this program wrote and are none of these.
 void remove_others(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files) {
   static const std::regex kOurs(R"((object|joins)_[0-9]+\.png)");
@@ -148,7 +138,7 @@ void remove_others(const std::filesystem::path& folder, const std::vector<std::f
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
     if (std::regex_match(entry.path().filename().string(), kOurs) &&
         std::find(files.begin(), files.end(), folder / entry.path().filename()) == files.end() &&
-        is_ours(entry.path()))
+        is_marked_png_file(entry.path()))
       others.push_back(entry.path());
   }
   for (const std::filesystem::path& other : others) std::filesystem::remove(other, ignored);
@@ -267,7 +257,7 @@ std::optional<std::filesystem::path> foreign_result(const std::filesystem::path&
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
     if (entry.is_regular_file(ignored) && std::regex_match(entry.path().filename().string(), kResults) &&
-        !is_ours(entry.path()))
+        !is_marked_png_file(entry.path()))
       foreign.push_back(entry.path());
   }
   if (foreign.empty()) return std::nullopt;

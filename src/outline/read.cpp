@@ -85,7 +85,7 @@ Outlines read_outlines(const std::string& path, Kind kind, std::vector<std::stri
   std::vector<detail::Rings> all;
   if (kind == Kind::Csv) all = detail::read_csv(path, text, notes);
   if (kind == Kind::Svg) all = detail::read_svg(path, text, notes);
-  if (kind == Kind::GeoJson) all = detail::read_geojson(path, text);
+  if (kind == Kind::GeoJson) all = detail::read_geojson(path, text, notes);
   std::vector<Outline> outlines;
   outlines.reserve(all.size());
   const bool y_up = !all.empty() && all[0].y_up;

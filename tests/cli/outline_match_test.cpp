@@ -248,17 +248,30 @@ TEST(OutlineMatch, PicturesOfAnEarlierPairDoNotStay) {
   const TemporaryFolder folder;
   const std::string square = good_picture(folder);
   write_file(folder / "circle.svg", "<svg><circle r='20'/></svg>");
-  write_file(folder / "joined.png", "old");
-  const Finished none =
-      run({"outline", "match", square, folder / "circle.svg", "--method", "lcs", "--out", folder / ""});
+  const std::vector<std::string> without_fit = {"outline",  "match", square,  folder / "circle.svg",
+                                                "--method", "lcs",   "--out", folder / ""};
+  const Finished none = run(without_fit);
   ASSERT_NE(none.out.find("nothing fits"), std::string::npos) << none.out << none.err;
-  EXPECT_FALSE(std::filesystem::exists(folder / "joined.png"));
   EXPECT_TRUE(std::filesystem::exists(folder / "match.png"));
+  std::filesystem::copy_file(folder / "match.png", folder / "joined.png");
+  EXPECT_EQ(run(without_fit).exit_code, none.exit_code);
+  EXPECT_FALSE(std::filesystem::exists(folder / "joined.png"));
   std::filesystem::copy_file(square, folder / "joined.png");
   const Finished over =
       run({"outline", "match", folder / "joined.png", folder / "circle.svg", "--out", folder / ""});
   EXPECT_EQ(over.exit_code, 2);
   EXPECT_NE(over.err.find("joined.png: is read too and would be lost"), std::string::npos) << over.err;
+}
+
+TEST(OutlineMatch, APictureOfTheUsersOwnIsNotOverwritten) {
+  const TemporaryFolder folder;
+  const std::string square = good_picture(folder);
+  write_file(folder / "circle.svg", "<svg><circle r='20'/></svg>");
+  std::filesystem::copy_file(square, folder / "match.png");
+  const Finished refused = run({"outline", "match", square, folder / "circle.svg", "--out", folder / ""});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("match.png: is no picture of this program"), std::string::npos) << refused.err;
+  EXPECT_EQ(read_file(folder / "match.png"), read_file(square));
 }
 
 // A pipe that nobody writes to holds the program inside the reader; opening our end waits until it is there.
@@ -295,9 +308,14 @@ TEST(OutlineMatch, AfterCtrlCAnEarlierMatchStays) {
   interrupted();
   EXPECT_TRUE(json::parse(read_file(file))["search"]["interrupted"].get<bool>()) << "where none is";
 
-  for (const std::string& earlier : {file, pictures + "/match.png"}) write_file(earlier, "old");
+  write_file(file, "old");
+  write_file(folder / "circle.svg", "<svg><circle r='20'/></svg>");
+  ASSERT_NE(
+      run({"outline", "match", good_picture(folder), folder / "circle.svg", "--out", pictures}).exit_code, 2);
+  const std::string picture = read_file(pictures + "/match.png");
   const Finished finished = interrupted();
-  for (const std::string& earlier : {file, pictures + "/match.png"}) EXPECT_EQ(read_file(earlier), "old");
+  EXPECT_EQ(read_file(file), "old");
+  EXPECT_EQ(read_file(pictures + "/match.png"), picture);
   for (const std::string& output : {file, pictures})
     EXPECT_NE(finished.err.find(output + " is kept"), std::string::npos) << finished.err;
 }

@@ -79,6 +79,23 @@ TEST_F(Read, BrokenGeoJsonIsRefused) {
   expect_refusal("d.geojson", R"({"type":7,"coordinates":3})", "no polygon");
 }
 
+TEST_F(Read, TellsGeoJsonThatSaysItsCoordinatesAreDegrees) {
+  const auto notes = [&](const std::string& crs) {
+    const std::string head =
+        crs.empty() ? "" : R"("crs":{"type":"name","properties":{"name":")" + crs + R"("}},)";
+    return read_pieces(write("a.geojson",
+                             "{" + head + R"("type":"Polygon","coordinates":[[[0,0],[9,0],[9,9],[0,9]]]})"))
+        .notes;
+  };
+  for (const char* degrees : {"urn:ogc:def:crs:OGC:1.3:CRS84", "EPSG:4326", "urn:ogc:def:crs:EPSG::4326"}) {
+    ASSERT_EQ(notes(degrees).size(), 1U) << degrees;
+    EXPECT_NE(notes(degrees)[0].find("a.geojson: its coordinates are degrees"), std::string::npos)
+        << notes(degrees)[0];
+  }
+  for (const char* metres : {"", "urn:ogc:def:crs:EPSG::32650", "EPSG:3857"})
+    EXPECT_TRUE(notes(metres).empty()) << metres;
+}
+
 TEST_F(Read, ARingThatIsNoOutlineIsToldAndLeftOutWhereOthersAreLeft) {
   const std::string good = "[[0,0],[9,0],[9,9],[0,9]]";
   const std::string three = "[[20,0],[21,0],[20,1]]";

@@ -71,9 +71,18 @@ class Reader {
   const std::string& path_;
 };
 
+/// Whether the file says that its coordinates are longitude and latitude: "urn:ogc:def:crs:OGC:1.3:CRS84", "EPSG:4326".
+bool says_degrees(const json& file) {
+  const json::json_pointer name("/crs/properties/name");
+  if (!file.contains(name) || !file[name].is_string()) return false;
+  const std::string crs = file[name].get<std::string>();
+  return crs.ends_with("CRS84") || crs.ends_with(":4326");
+}
+
 }  // namespace
 
-std::vector<Rings> read_geojson(const std::string& path, const std::string& text) {
+std::vector<Rings> read_geojson(const std::string& path, const std::string& text,
+                                std::vector<std::string>& notes) {
   if (json_depth(text) > kDeepestJson)
     throw InputError(path, fmt::format("its JSON is nested deeper than {}", kDeepestJson), kMend);
   const json value = json::parse(text, nullptr, false);
@@ -81,6 +90,12 @@ std::vector<Rings> read_geojson(const std::string& path, const std::string& text
   Reader reader(path);
   reader.read(value);
   if (reader.result.empty()) throw InputError(path, "holds no polygon", kMend);
+  if (says_degrees(value)) {
+    notes.push_back(
+        path +
+        ": its coordinates are degrees, in which shapes are stretched the more the farther from the equator "
+        "(save it in a projection that keeps angles, such as UTM)");
+  }
   return std::move(reader.result);
 }
 

@@ -31,8 +31,10 @@ std::vector<Rings> read_svg(const std::string& path, const std::string& text,
 /// \throws InputError broken XML, or its width is no length
 double svg_units_an_inch(const std::string& path, const std::string& text);
 
+/// \param notes  gets a doubt about degrees
 /// \throws InputError broken JSON, or no polygon in it
-std::vector<Rings> read_geojson(const std::string& path, const std::string& text);
+std::vector<Rings> read_geojson(const std::string& path, const std::string& text,
+                                std::vector<std::string>& notes);
 
 /// A text without the characters of `away` at its ends.
 inline std::string_view trimmed(std::string_view text, std::string_view away) {
