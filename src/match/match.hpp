@@ -79,11 +79,18 @@ inline double thinner_wall(const Fragment& a, const Fragment& b) {
   return both_thin(a, b) ? std::min(a.facets.wall_thickness, b.facets.wall_thickness) : 0.0;
 }
 
+/// The length by which joints of two sherds are judged, mesh units: the thinner wall, or a tenth of the smaller one's size if that is
+/// less, as small sherds of thick vessels have no relief as large as their walls are thick; 0 if either is none.
+inline double joint_ruler(const Fragment& a, const Fragment& b) {
+  constexpr double kOfSize = 0.1;
+  return std::min(thinner_wall(a, b), kOfSize * std::min(a.diameter, b.diameter));
+}
+
 /// Spacing of the sparser of both samples by which joints are judged, mesh units.  A solid piece with samples more than three times as far
 /// apart as the other one's, of which it would see too little, is sampled more densely for that.
 double samples_spacing(const Fragment& a, const Fragment& b);
 
-/// Distance below which surfaces touch, mesh units: a twentieth of the thinner wall (of solid pieces a share of the samples'
+/// Distance below which surfaces touch, mesh units: a twentieth of joint_ruler() (of solid pieces a share of the samples'
 /// spacing), or what the scans' resolution and noise can tell.
 double contact_tolerance(const Fragment& a, const Fragment& b);
 

@@ -113,8 +113,8 @@ double samples_spacing(const Fragment& a, const Fragment& b) {
 
 double contact_tolerance(const Fragment& a, const Fragment& b) {
   constexpr double kNoiseInGaps = 3.0;  // deviations of gaps by what is left of noise that still touch
-  const double wall = thinner_wall(a, b);
-  return std::max({wall > 0 ? 0.05 * wall : 0.15 * samples_spacing(a, b),
+  const double ruler = joint_ruler(a, b);
+  return std::max({ruler > 0 ? 0.05 * ruler : 0.15 * samples_spacing(a, b),
                    0.3 * std::max(a.resolution, b.resolution),
                    kNoiseInGaps * std::hypot(a.noise_left, b.noise_left)});
 }

@@ -205,13 +205,20 @@ void vote(std::vector<Surface>& surface, const Lists& voters) {
 /// Wall points see the opposite wall, parallel to theirs, or lie on a wide facet of an open scan; then they vote.  Where a break runs askew,
 /// the wall behind it counts as a break, too.
 /// \param wide  of an open scan, per sample: on a facet too wide for a break; else empty
-void classify_thin(Segmentation& s, const InwardRays& rays, const Lists& near,
-                   const std::vector<bool>& wide) {
+/// \param roughest  what is rougher than that, by most of its voters, is a break; 0: nothing is for that
+void classify_thin(Segmentation& s, const InwardRays& rays, const Lists& near, const std::vector<bool>& wide,
+                   float roughest) {
   const auto t = static_cast<float>(s.wall_thickness);
   const Lists voters = voters_of(s);
   const std::vector<glm::vec3> normals = normals_over(s.normals, voters);
   const PointIndex index(s.samples.points);
+  const std::vector<float> roughness =
+      roughest > 0 ? roughness_of(s.samples, s.normals) : std::vector<float>();
+  const auto is_rough = [&](std::uint32_t i) { return roughness[i] > roughest; };
   const auto is_wall = [&](std::size_t i) {
+    if (roughest > 0 &&
+        2 * std::ranges::count_if(voters[i], is_rough) > static_cast<std::ptrdiff_t>(voters[i].size()))
+      return false;
     if (!wide.empty() && wide[i]) return true;
     const float length = rays.length[i];
     if (!(length > kWallLow * t && length < kWallHigh * t)) return false;
@@ -287,7 +294,9 @@ detail::OpenWalls open_walls(const Mesh& mesh, const Segmentation& s, const List
 /// \return the samples' neighbours
 Lists classify(const Mesh& mesh, double size, Segmentation& s) {
   Look seen = look(mesh, kSamples, s);
-  s.wall_thickness = wall_thickness(seen.rays, size);
+  const Walls walls =
+      find_walls(seen.rays, s.normals, size, [&] { return roughness_of(s.samples, s.normals); });
+  s.wall_thickness = walls.thickness;
   s.backed = meets_something(seen.rays);
   const bool open = unbacked_share(s) > kOpen;
   if (open && s.wall_thickness == 0) {
@@ -303,7 +312,7 @@ Lists classify(const Mesh& mesh, double size, Segmentation& s) {
   }
   std::vector<bool> wide;
   if (open) wide = open_walls(mesh, s, seen.near, kWideWalls * s.wall_thickness).wall;
-  classify_thin(s, seen.rays, seen.near, wide);
+  classify_thin(s, seen.rays, seen.near, wide, walls.roughest);
   return std::move(seen.near);
 }
 

@@ -1,9 +1,11 @@
 #include "mesh/thickness.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "core/median.hpp"
 #include "core/parallel.hpp"
 #include "mesh/ray_scene.hpp"
 
@@ -15,10 +17,36 @@ constexpr double kBinsPerOctave = 12.0;  // 6 % wide bins: finer than the walls 
 constexpr double kThinnest = 1.0 / 4096.0;
 constexpr double kMostOfSize = 0.12;    // of a thin piece
 constexpr double kMostOfSherd = 0.2;    // of one whose walls run parallel nearly everywhere, however thick
+constexpr double kMostOfSmooth = 0.3;   // of one whose walls are smoother than its breaks
 constexpr float kParallel = 0.95F;      // within 18 degrees
 constexpr double kLeastParallel = 0.2;  // of a thin piece's surface: cracks of a solid lean on each other
+constexpr double kLeastSmooth = 0.15;   // of the surface of a sherd with smooth walls is parallel
+constexpr double kSlab = 0.7;           // of the squares of its normals lie along one direction
+constexpr float kSmooth = 0.5F;         // roughness of such walls, of that of the rest, at most
 constexpr double kEvenLow = 0.8;        // of the thickness
 constexpr double kEvenHigh = 1.25;
+
+/// Share of the normals' squares along the direction, or its opposite, in which most of them point: 1 of a slab, 0.5 of a rod.
+double share_along_one(const std::vector<bool>& chosen, const std::vector<glm::vec3>& normals) {
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    const Eigen::Vector3d n(normals[i].x, normals[i].y, normals[i].z);
+    if (chosen[i]) spread += n * n.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()(2) / std::max(spread.trace(), 1e-300);
+}
+
+/// Roughness between that of what has a parallel surface behind it and that of the rest; 0: the former is not smooth against the latter.
+float between(const std::vector<bool>& parallel, const std::vector<float>& roughness) {
+  std::vector<float> walls;
+  std::vector<float> rest;
+  for (std::size_t i = 0; i < roughness.size(); ++i) (parallel[i] ? walls : rest).push_back(roughness[i]);
+  const float smooth = median(walls);
+  const float rough = median(rest);
+  if (smooth >= kSmooth * rough) return 0.0F;
+  return std::max(std::sqrt(smooth * rough), kSmooth * kSmooth * rough);  // of planes the first is nought
+}
 
 }  // namespace
 
@@ -50,7 +78,8 @@ InwardRays cast_inwards(const Mesh& mesh, const Samples& samples, const std::vec
   return rays;
 }
 
-double wall_thickness(const InwardRays& rays, double size) {
+Walls find_walls(const InwardRays& rays, const std::vector<glm::vec3>& normals, double size,
+                 const std::function<std::vector<float>()>& roughness) {
   const auto bins = static_cast<std::size_t>(std::log2(1.0 / kThinnest) * kBinsPerOctave) + 1;
   std::vector<double> histogram(bins, 0.0);
   for (std::size_t i = 0; i < rays.length.size(); ++i) {
@@ -71,20 +100,35 @@ double wall_thickness(const InwardRays& rays, double size) {
   std::vector<float> near;
   std::size_t parallel = 0;
   std::size_t parallel_anyhow = 0;
+  std::vector<bool> is_parallel(rays.length.size(), false);
   for (std::size_t i = 0; i < rays.length.size(); ++i) {
     const double ratio = static_cast<double>(rays.length[i]) / guess;
     if (rays.square[i] > kSquare && ratio > 0.6 && ratio < 1.6) near.push_back(rays.length[i]);
     if (rays.square[i] <= kParallel) continue;
-    if (ratio > kEvenLow && ratio < kEvenHigh) ++parallel;
-    if (static_cast<double>(rays.length[i]) < kEvenHigh * kMostOfSherd * size) ++parallel_anyhow;
+    const bool even = ratio > kEvenLow && ratio < kEvenHigh;
+    const bool anyhow = static_cast<double>(rays.length[i]) < kEvenHigh * kMostOfSherd * size;
+    parallel += even ? 1 : 0;
+    parallel_anyhow += anyhow ? 1 : 0;
+    is_parallel[i] = even || anyhow;
   }
   const bool thin = guess <= kMostOfSize * size && 3 * near.size() >= rays.length.size() &&
                     static_cast<double>(parallel) >= kLeastParallel * static_cast<double>(rays.length.size());
   const bool sherd = guess <= kMostOfSherd * size && 2 * parallel_anyhow >= rays.length.size();
-  if (!thin && !sherd) return 0.0;
+  Walls walls;
+  if (near.empty()) return walls;  // thinner than any bin
+  if (!thin && !sherd) {
+    const auto share =
+        static_cast<double>(std::ranges::count(is_parallel, true)) / static_cast<double>(is_parallel.size());
+    if (guess <= kMostOfSize * size || guess > kMostOfSmooth * size || share < kLeastSmooth ||
+        share_along_one(is_parallel, normals) < kSlab)
+      return walls;
+    walls.roughest = between(is_parallel, roughness());
+    if (walls.roughest == 0.0F) return walls;
+  }
   const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
   std::nth_element(near.begin(), middle, near.end());
-  return static_cast<double>(*middle);
+  walls.thickness = static_cast<double>(*middle);
+  return walls;
 }
 
 }  // namespace rejoin::mesh

@@ -1,6 +1,7 @@
 /// Wall thickness of thin pieces, the natural unit for sherds.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "mesh/mesh.hpp"
@@ -19,10 +20,21 @@ struct InwardRays {
 /// \param normals  smoothed outward normals of the samples
 InwardRays cast_inwards(const Mesh& mesh, const Samples& samples, const std::vector<glm::vec3>& normals);
 
-/// The most frequent length of rays that leave squarely, if it makes the piece thin: at least a third of the surface has an
-/// opposite wall at 0.6 to 1.6 of it, and it is small (0.12) against the piece's size; or a small sherd of a thick vessel, up to
-/// 0.2 of its size, half of whose surface has a parallel wall at 0.8 to 1.25 of it.  0 otherwise.
-/// \param size  diameter of the piece, mesh units
-double wall_thickness(const InwardRays& rays, double size);
+/// The walls of a sherd.
+struct Walls {
+  double thickness = 0;  ///< mesh units; 0: the piece is solid
+  float roughest = 0;    ///< roughness that breaks alone exceed; 0: walls may be as rough
+};
+
+/// The thickness is the most frequent length of rays that leave squarely, if it makes the piece thin: at least a third of the surface has an
+/// opposite wall at 0.6 to 1.6 of it, and it is small (0.12) against the piece's size.  Or if it makes a small sherd of a thick vessel, up to
+/// 0.2 of its size, half of whose surface has a parallel wall at 0.8 to 1.25 of it or nearer than 0.25 of its size.  Or one of up to 0.3 of
+/// its size, if three twentieths of its surface have such a wall, face about one direction or its opposite, unlike those of a rod, and are half
+/// as rough as the rest: so are walls against breaks.
+/// \param size       diameter of the piece, mesh units
+/// \param normals    of the samples
+/// \param roughness  of the samples; asked for where it decides
+Walls find_walls(const InwardRays& rays, const std::vector<glm::vec3>& normals, double size,
+                 const std::function<std::vector<float>()>& roughness);
 
 }  // namespace rejoin::mesh

@@ -88,6 +88,21 @@ TEST(Joint, EvidenceThatIsNotStrongEnoughIsToldEarlyAndNoOther) {
   }
 }
 
+TEST(Joint, TouchesWithinATwentiethOfTheWallOrOfATenthOfASmallSherd) {
+  Fragment a;
+  a.diameter = 50.0;
+  a.resolution = 0.1;
+  a.facets.samples.spacing = 0.5;
+  a.facets.wall_thickness = 4.0;
+  Fragment b = a;
+  b.diameter = 80.0;
+  EXPECT_DOUBLE_EQ(contact_tolerance(a, b), 0.05 * 4.0);
+  a.facets.wall_thickness = b.facets.wall_thickness = 12.0;
+  EXPECT_DOUBLE_EQ(contact_tolerance(a, b), 0.05 * 0.1 * 50.0);
+  b.facets.wall_thickness = 0.0;
+  EXPECT_DOUBLE_EQ(contact_tolerance(a, b), 0.15 * 0.5) << "a sherd and a solid piece";
+}
+
 TEST(Joint, AlignmentBringsADisturbedPoseBack) {
   const Pair pair = make_pair(9);
   const Joint joint(pair.a, pair.b);

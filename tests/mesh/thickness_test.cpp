@@ -65,15 +65,76 @@ InwardRays rays_of_two_walls(float square) {
   return rays;
 }
 
+/// Of a piece 100 in size whose samples are all as rough, with normals along the rays that leave squarely.
+double thickness_of(const InwardRays& rays) {
+  const std::vector<glm::vec3> normals(rays.length.size(), glm::vec3(0, 0, 1));
+  return find_walls(rays, normals, 100.0, [&] { return std::vector<float>(normals.size(), 0.02F); })
+      .thickness;
+}
+
 TEST(Thickness, WallsThatRunParallelNearlyEverywhereNeedNotBeAsThick) {
-  EXPECT_NEAR(wall_thickness(rays_of_two_walls(0.99F), 100.0), 16.0, 0.3);
-  EXPECT_EQ(wall_thickness(rays_of_two_walls(0.9F), 100.0), 0.0);
+  EXPECT_NEAR(thickness_of(rays_of_two_walls(0.99F)), 16.0, 0.3);
+  EXPECT_EQ(thickness_of(rays_of_two_walls(0.9F)), 0.0);
 }
 
 // Two cracks of a solid object may run side by side, but they are not parallel.
 TEST(Thickness, SlabBetweenCracksThatLeanOnEachOtherHasNoWall) {
-  EXPECT_EQ(wall_thickness(rays_of_a_slab(0.88F), 100.0), 0.0);
-  EXPECT_NEAR(wall_thickness(rays_of_a_slab(0.99F), 100.0), 10.0, 0.3);
+  EXPECT_EQ(thickness_of(rays_of_a_slab(0.88F)), 0.0);
+  EXPECT_NEAR(thickness_of(rays_of_a_slab(0.99F)), 10.0, 0.3);
+}
+
+TEST(Thickness, WallsOfASmallSherdAreSmoothAndAboutFlat) {
+  const InwardRays rays = rays_of_two_walls(0.9F);  // seven twentieths are parallel
+  const auto walls = [&](float rough, float turn) {
+    std::vector<glm::vec3> normals;
+    std::vector<float> roughness;
+    for (std::size_t k = 0; k < rays.length.size(); ++k) {
+      const float angle = turn * static_cast<float>(k % 100);
+      normals.emplace_back(std::sin(angle), 0.0F, std::cos(angle));
+      roughness.push_back(rays.square[k] > 0.95F ? rough : 0.04F);
+    }
+    return find_walls(rays, normals, 100.0, [&] { return roughness; });
+  };
+  EXPECT_NEAR(walls(0.01F, 0.0F).thickness, 16.0, 0.3);
+  EXPECT_NEAR(walls(0.01F, 0.0F).roughest, 0.02F, 1e-4F) << "between 0.01 and 0.04";
+  EXPECT_EQ(walls(0.03F, 0.0F).thickness, 0.0) << "a slab between two breaks";
+  const float around = glm::radians(3.6F);
+  EXPECT_EQ(walls(0.01F, around).thickness, 0.0) << "a rod";
+}
+
+TEST(Thickness, SheetThinnerThanAllThatIsCountedHasNoWall) {
+  EXPECT_EQ(thickness_of({std::vector<float>(1000, 0.001F), std::vector<float>(1000, 1.0F)}), 0.0);
+}
+
+/// A brick with broken sides: their relief of 0.6 lies in the plane of the walls.
+Mesh small_sherd(float relief) {
+  const glm::vec3 size(26, 12, 7.5F);
+  Mesh mesh = box(size, 60, flat);
+  for (glm::vec3& v : mesh.vertices) {
+    const float bump = relief * std::sin(4.5F * v.z + v.x + v.y) * std::sin(2.5F * (v.x - v.y) + 0.4F * v.z);
+    v.x += bump * (v.x / size.x - 0.5F);
+    v.y += bump * (v.y / size.y - 0.5F);
+  }
+  return mesh;
+}
+
+TEST(Thickness, SmallSherdWithRoughBreaksHasItsWallsAndABrickHasNone) {
+  EXPECT_EQ(segment(small_sherd(0.0F)).wall_thickness, 0.0);
+  const Segmentation s = segment(small_sherd(1.2F));
+  ASSERT_NEAR(s.wall_thickness, 7.5, 0.2);
+  // Its long breaks face each other in parallel, at 1.6 wall thicknesses.
+  std::size_t wrong = 0;
+  std::size_t inside = 0;
+  for (std::size_t i = 0; i < s.samples.size(); ++i) {
+    const glm::vec3 p = s.samples.points[i];
+    const bool wall = std::abs(s.normals[i].z) > 0.9F;
+    if (wall && (std::min(p.x, 26 - p.x) < 1.5F || std::min(p.y, 12 - p.y) < 1.5F))
+      continue;  // worn edges may be either
+    if (!wall && std::min(p.z, 7.5F - p.z) < 1.0F) continue;
+    ++inside;
+    wrong += (s.surface[i] == Surface::Original) != wall ? 1 : 0;
+  }
+  EXPECT_LT(wrong, inside / 50) << "of " << inside;
 }
 
 TEST(Quarters, AreCompactPartsOfTheirFacetOfOneSizeAndHoldAllOfIt) {

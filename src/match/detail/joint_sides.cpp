@@ -63,7 +63,7 @@ JointLengths lengths_of(const Fragment& a, const Fragment& b) {
   l.spacing = samples_spacing(a, b);
   l.tolerance = contact_tolerance(a, b);
   l.noise = 0.05 * scan;
-  l.patch = std::max({0.5 * l.thickness, 2.5 * l.spacing, 2.5 * scan});
+  l.patch = std::max({0.5 * joint_ruler(a, b), 2.5 * l.spacing, 2.5 * scan});
   return l;
 }
 
