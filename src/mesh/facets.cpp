@@ -212,9 +212,7 @@ void classify_thin(Segmentation& s, const InwardRays& rays, const Lists& near, c
   const Lists voters = voters_of(s);
   const std::vector<glm::vec3> normals = normals_over(s.normals, voters);
   const PointIndex index(s.samples.points);
-  const std::vector<float> roughness =
-      roughest > 0 ? roughness_of(s.samples, s.normals) : std::vector<float>();
-  const auto is_rough = [&](std::uint32_t i) { return roughness[i] > roughest; };
+  const auto is_rough = [&](std::uint32_t i) { return s.roughness[i] > roughest; };
   const auto is_wall = [&](std::size_t i) {
     if (roughest > 0 &&
         2 * std::ranges::count_if(voters[i], is_rough) > static_cast<std::ptrdiff_t>(voters[i].size()))
@@ -281,6 +279,7 @@ Look look(const Mesh& mesh, std::size_t samples, Segmentation& s) {
   Lists near = detail::neighbours_within(s.samples.points, detail::kNormalRadius * s.samples.spacing);
   s.normals = detail::mean_normals(s.samples.normals, near, 0.0F);
   s.surface.assign(s.samples.size(), Surface::Fracture);
+  s.roughness = roughness_of(s.samples, s.normals);
   InwardRays rays = cast_inwards(mesh, s.samples, s.normals);
   return {std::move(near), std::move(rays)};
 }
@@ -294,8 +293,7 @@ detail::OpenWalls open_walls(const Mesh& mesh, const Segmentation& s, const List
 /// \return the samples' neighbours
 Lists classify(const Mesh& mesh, double size, Segmentation& s) {
   Look seen = look(mesh, kSamples, s);
-  const Walls walls =
-      find_walls(seen.rays, s.normals, size, [&] { return roughness_of(s.samples, s.normals); });
+  const Walls walls = find_walls(seen.rays, s.normals, s.roughness, size);
   s.wall_thickness = walls.thickness;
   s.backed = meets_something(seen.rays);
   const bool open = unbacked_share(s) > kOpen;
@@ -361,7 +359,6 @@ Segmentation segment(const Mesh& mesh, double size) {
   const Lists near = classify(mesh, size, s);
   const bool thin = s.wall_thickness > 0;
   s.sample_area = surface_area(mesh) / static_cast<double>(std::max<std::size_t>(1, s.samples.size()));
-  s.roughness = roughness_of(s.samples, s.normals);
   const std::vector<glm::vec3> normals = thin ? strip_normals(s) : s.normals;
   const detail::Ground ground{s.samples.points, normals, s.surface, near, s.samples.spacing};
   const bool strips = thin && s.wall_thickness < kStripOfSize * size;

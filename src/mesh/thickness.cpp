@@ -78,8 +78,8 @@ InwardRays cast_inwards(const Mesh& mesh, const Samples& samples, const std::vec
   return rays;
 }
 
-Walls find_walls(const InwardRays& rays, const std::vector<glm::vec3>& normals, double size,
-                 const std::function<std::vector<float>()>& roughness) {
+Walls find_walls(const InwardRays& rays, const std::vector<glm::vec3>& normals,
+                 const std::vector<float>& roughness, double size) {
   const auto bins = static_cast<std::size_t>(std::log2(1.0 / kThinnest) * kBinsPerOctave) + 1;
   std::vector<double> histogram(bins, 0.0);
   for (std::size_t i = 0; i < rays.length.size(); ++i) {
@@ -122,7 +122,7 @@ Walls find_walls(const InwardRays& rays, const std::vector<glm::vec3>& normals, 
     if (guess <= kMostOfSize * size || guess > kMostOfSmooth * size || share < kLeastSmooth ||
         share_along_one(is_parallel, normals) < kSlab)
       return walls;
-    walls.roughest = between(is_parallel, roughness());
+    walls.roughest = between(is_parallel, roughness);
     if (walls.roughest == 0.0F) return walls;
   }
   const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);

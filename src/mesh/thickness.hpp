@@ -1,7 +1,6 @@
 /// Wall thickness of thin pieces, the natural unit for sherds.
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "mesh/mesh.hpp"
@@ -31,10 +30,9 @@ struct Walls {
 /// 0.2 of its size, half of whose surface has a parallel wall at 0.8 to 1.25 of it or nearer than 0.25 of its size.  Or one of up to 0.3 of
 /// its size, if three twentieths of its surface have such a wall, face about one direction or its opposite, unlike those of a rod, and are half
 /// as rough as the rest: so are walls against breaks.
-/// \param size       diameter of the piece, mesh units
-/// \param normals    of the samples
-/// \param roughness  of the samples; asked for where it decides
-Walls find_walls(const InwardRays& rays, const std::vector<glm::vec3>& normals, double size,
-                 const std::function<std::vector<float>()>& roughness);
+/// \param normals, roughness  of the samples
+/// \param size  diameter of the piece, mesh units
+Walls find_walls(const InwardRays& rays, const std::vector<glm::vec3>& normals,
+                 const std::vector<float>& roughness, double size);
 
 }  // namespace rejoin::mesh

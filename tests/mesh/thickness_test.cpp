@@ -68,8 +68,7 @@ InwardRays rays_of_two_walls(float square) {
 /// Of a piece 100 in size whose samples are all as rough, with normals along the rays that leave squarely.
 double thickness_of(const InwardRays& rays) {
   const std::vector<glm::vec3> normals(rays.length.size(), glm::vec3(0, 0, 1));
-  return find_walls(rays, normals, 100.0, [&] { return std::vector<float>(normals.size(), 0.02F); })
-      .thickness;
+  return find_walls(rays, normals, std::vector<float>(normals.size(), 0.02F), 100.0).thickness;
 }
 
 TEST(Thickness, WallsThatRunParallelNearlyEverywhereNeedNotBeAsThick) {
@@ -93,7 +92,7 @@ TEST(Thickness, WallsOfASmallSherdAreSmoothAndAboutFlat) {
       normals.emplace_back(std::sin(angle), 0.0F, std::cos(angle));
       roughness.push_back(rays.square[k] > 0.95F ? rough : 0.04F);
     }
-    return find_walls(rays, normals, 100.0, [&] { return roughness; });
+    return find_walls(rays, normals, roughness, 100.0);
   };
   EXPECT_NEAR(walls(0.01F, 0.0F).thickness, 16.0, 0.3);
   EXPECT_NEAR(walls(0.01F, 0.0F).roughest, 0.02F, 1e-4F) << "between 0.01 and 0.04";

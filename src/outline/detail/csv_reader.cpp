@@ -266,16 +266,8 @@ class Reader {
   }
 
   void tell_degrees() {
-    constexpr double kSame = 0.99;
-    double latitude = 0.0;
-    for (const glm::dvec2& p : lines[0]) latitude += p.y / static_cast<double>(lines[0].size());
-    const double share = std::cos(latitude * M_PI / 180.0);
-    if (std::abs(latitude) > 90.0 || share > kSame) return;
-    notes_.push_back(fmt::format(
-        "{}: degrees are no lengths (at a latitude of {:.0f} one of longitude is {:.2f} times as long as one "
-        "of "
-        "latitude), so that shapes are distorted; write x and y in metres, as of a national grid or UTM",
-        path_, latitude, share));
+    if (std::optional<std::string> doubt = doubt_degrees(path_, lines[0]))
+      notes_.push_back(std::move(*doubt));
   }
 
   /// Of a table whose first column counts its lines the outline would be no one's.
@@ -300,6 +292,19 @@ class Reader {
 };
 
 }  // namespace
+
+std::optional<std::string> doubt_degrees(const std::string& path, const std::vector<glm::dvec2>& points) {
+  constexpr double kSame = 0.99;
+  double latitude = 0.0;
+  for (const glm::dvec2& p : points) latitude += p.y / static_cast<double>(points.size());
+  const double share = std::cos(latitude * M_PI / 180.0);
+  if (std::abs(latitude) > 90.0 || share > kSame) return std::nullopt;
+  return fmt::format(
+      "{}: degrees are no lengths (at a latitude of {:.0f} one of longitude is {:.2f} times as long as one "
+      "of "
+      "latitude), so that shapes are distorted; write x and y in metres, as of a national grid or UTM",
+      path, latitude, share);
+}
 
 std::vector<Rings> read_csv(const std::string& path, const std::string& file,
                             std::vector<std::string>& notes) {

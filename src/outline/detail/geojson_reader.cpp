@@ -1,6 +1,8 @@
 #include <fmt/core.h>
 
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/json_depth.hpp"
@@ -90,12 +92,9 @@ std::vector<Rings> read_geojson(const std::string& path, const std::string& text
   Reader reader(path);
   reader.read(value);
   if (reader.result.empty()) throw InputError(path, "holds no polygon", kMend);
-  if (says_degrees(value)) {
-    notes.push_back(
-        path +
-        ": its coordinates are degrees, in which shapes are stretched the more the farther from the equator "
-        "(save it in a projection that keeps angles, such as UTM)");
-  }
+  if (!says_degrees(value)) return std::move(reader.result);
+  if (std::optional<std::string> doubt = doubt_degrees(path, reader.result[0].rings[0]))
+    notes.push_back(std::move(*doubt));
   return std::move(reader.result);
 }
 

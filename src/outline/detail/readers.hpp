@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,7 +32,10 @@ std::vector<Rings> read_svg(const std::string& path, const std::string& text,
 /// \throws InputError broken XML, or its width is no length
 double svg_units_an_inch(const std::string& path, const std::string& text);
 
-/// \param notes  gets a doubt about degrees
+/// What to say of an outline in degrees, longitude first; nullopt: at the equator they are lengths, or these are none.
+std::optional<std::string> doubt_degrees(const std::string& path, const std::vector<glm::dvec2>& points);
+
+/// \param notes  gets doubt_degrees() where the file's "crs" says that its coordinates are such
 /// \throws InputError broken JSON, or no polygon in it
 std::vector<Rings> read_geojson(const std::string& path, const std::string& text,
                                 std::vector<std::string>& notes);
