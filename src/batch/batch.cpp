@@ -47,8 +47,9 @@ class Work {
         options_(options),
         listener_(listener),
         context_(context),
-        names_(find_scans(inputs)),
-        equal_sized_(files_of_equal_size(inputs, names_)),
+        scans_(find_scans(inputs)),
+        names_(names_of(scans_)),
+        equal_sized_(files_of_equal_size(scans_)),
         copies_(store::copies(equal_sized_)),
         layout_(without_copies(options.layout)),
         painted_(without_copies(options.painted)),
@@ -176,7 +177,7 @@ class Work {
     for (const std::string& name : needed) {
       store::Fragment fragment;
       fragment.name = name;
-      fragment.path = fs::absolute(inputs_ / name).lexically_normal().string();
+      fragment.path = fs::absolute(scans_.at(name)).lexically_normal().string();
       fragment.hash = hashes[name];
       if (const auto laid = layout_.find(name); laid != layout_.end())
         fragment.pose = pose_text(laid->second);
@@ -294,6 +295,7 @@ class Work {
   const Options& options_;
   Listener& listener_;
   const Context& context_;
+  Scans scans_;                                // copies, too
   std::vector<std::string> names_;             // of the scans that have pairs
   std::vector<store::Fragment> equal_sized_;   // name and hash
   std::map<std::string, std::string> copies_;  // of the others, with the names that stand for them

@@ -9,7 +9,6 @@
 #include <fstream>
 #include <map>
 #include <memory>
-#include <set>
 
 #include "batch/shelf.hpp"
 #include "core/error.hpp"
@@ -34,19 +33,52 @@ bool is_scan(const fs::directory_entry& entry) {
   return mesh::has_scan_name(entry.path());
 }
 
-bool holds_scans(const fs::path& folder) {
-  std::error_code problem;
+/// The scans in a folder, not below it.
+std::vector<fs::path> scans_in(const fs::path& folder, std::error_code& problem) {
+  std::vector<fs::path> files;
   for (fs::directory_iterator entry(folder, problem), end; !problem && entry != end;
        entry.increment(problem)) {
-    if (is_scan(*entry)) return true;
+    if (is_scan(*entry)) files.push_back(entry->path());
   }
-  return false;
+  return files;
 }
 
 /// Whether it is the folder in which the run around it keeps its surfaces.
 bool is_cache(const fs::path& folder) {
   std::error_code ignored;
   return folder.filename() == kCacheName && fs::exists(folder.parent_path() / store::kFileName, ignored);
+}
+
+/// Scans by the folder that holds them, of all folders below, however deep; not those below links.
+std::map<fs::path, std::vector<fs::path>> scans_below(const fs::path& folder) {
+  std::map<fs::path, std::vector<fs::path>> scans;
+  std::error_code problem;
+  fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied, problem);
+  for (const fs::recursive_directory_iterator end; !problem && entry != end; entry.increment(problem)) {
+    std::error_code ignored;
+    const fs::path& path = entry->path();
+    if (!entry->is_directory(ignored)) continue;
+    if (path.filename().string().starts_with('.') || is_cache(path)) {
+      entry.disable_recursion_pending();
+    } else if (std::vector<fs::path> files = scans_in(path, ignored); !files.empty()) {
+      scans[path] = std::move(files);
+    }
+  }
+  return scans;
+}
+
+/// The scans of a folder that holds folders of one scan each, however deep, by these folders' names.
+/// \throws InputError one of them holds several
+Scans scan_a_folder(const fs::path& folder) {
+  Scans scans;
+  for (const auto& [path, files] : scans_below(folder)) {
+    const fs::path child = *path.lexically_relative(folder).begin();
+    if (files.size() > 1 || !scans.emplace(child.string(), files.front()).second) {
+      throw InputError((folder / child).string(), "holds several scans",
+                       "give it alone, or leave one scan in every folder beside it");
+    }
+  }
+  return scans;
 }
 
 void add_bytes(const fs::path& path, XXH3_state_t& state) {
@@ -69,28 +101,30 @@ void add_bytes(const fs::path& path, XXH3_state_t& state) {
 
 }  // namespace
 
-std::vector<std::string> find_scans(const fs::path& folder) {
+Scans find_scans(const fs::path& folder) {
   std::error_code problem;
-  std::vector<std::string> names;
-  for (fs::directory_iterator entry(folder, problem), end; !problem && entry != end;
-       entry.increment(problem)) {
-    if (is_scan(*entry)) names.push_back(entry->path().filename().string());
-  }
+  Scans scans;
+  for (const fs::path& file : scans_in(folder, problem)) scans[file.filename().string()] = file;
   if (problem) {
     throw IoError(folder.string(), fmt::format("cannot be read ({})", problem.message()),
                   "give the folder of the scans");
   }
-  if (names.size() < 2) {
+  if (scans.empty()) scans = scan_a_folder(folder);
+  if (scans.size() < 2) {
     std::string mend = "give a folder of ply, obj, stl, off, gltf, glb, drc, xyz or pts files";
     if (fs::exists(folder / store::kFileName)) mend = "it is a run: give the folder of its scans";
-    if (!told_of_folders(folder).empty())
-      mend =
-          "there are scans in folders below: move those up, each under a name of its own, or give one of "
-          "these";
-    throw InputError(folder.string(), names.empty() ? "holds no scan" : "holds one scan only", mend);
+    if (!scans.empty() && !scans_below(folder).empty())
+      mend = "put all scans into one folder, or each into a folder of its own";
+    throw InputError(folder.string(), scans.empty() ? "holds no scan" : "holds one scan only", mend);
   }
-  for (const std::string& name : names) require_tellable_name(folder / name);
-  std::sort(names.begin(), names.end());
+  for (const auto& [name, file] : scans) require_tellable_name(folder / name);
+  return scans;
+}
+
+std::vector<std::string> names_of(const Scans& scans) {
+  std::vector<std::string> names;
+  names.reserve(scans.size());
+  for (const auto& [name, file] : scans) names.push_back(name);
   return names;
 }
 
@@ -108,24 +142,15 @@ std::string told_of_models(const fs::path& folder) {
 }
 
 std::string told_of_folders(const fs::path& folder) {
-  std::set<std::string> names;
-  std::error_code problem;
-  fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied, problem);
-  for (const fs::recursive_directory_iterator end; !problem && entry != end; entry.increment(problem)) {
-    std::error_code ignored;
-    const fs::path& path = entry->path();
-    if (!entry->is_directory(ignored)) continue;
-    if (path.filename().string().starts_with('.') || is_cache(path)) {
-      entry.disable_recursion_pending();
-    } else if (holds_scans(path)) {
-      names.insert(path.lexically_relative(folder).string());
-    }
-  }
-  if (names.empty()) return "";
+  std::error_code ignored;
+  if (scans_in(folder, ignored).empty()) return "";
+  const auto below = scans_below(folder);
+  if (below.empty()) return "";
   return fmt::format(
       "{} with scans below {} ({}{}) left out: move those scans up that are to be matched, too, each under a "
       "name of its own",
-      counted(names.size(), "folder"), folder.string(), *names.begin(), names.size() == 1 ? "" : ", ...");
+      counted(below.size(), "folder"), folder.string(),
+      below.begin()->first.lexically_relative(folder).string(), below.size() == 1 ? "" : ", ...");
 }
 
 std::string content_hash(const fs::path& path) {
@@ -144,12 +169,11 @@ std::string hash_if_readable(const fs::path& path) {
   }
 }
 
-std::vector<store::Fragment> files_of_equal_size(const fs::path& folder,
-                                                 const std::vector<std::string>& names) {
+std::vector<store::Fragment> files_of_equal_size(const Scans& scans) {
   std::map<std::uintmax_t, std::vector<std::string>> of_size;
-  for (const std::string& name : names) {
+  for (const auto& [name, file] : scans) {
     std::error_code problem;
-    const std::uintmax_t size = fs::file_size(folder / name, problem);
+    const std::uintmax_t size = fs::file_size(file, problem);
     if (!problem) of_size[size].push_back(name);
   }
   std::vector<store::Fragment> files;
@@ -158,7 +182,7 @@ std::vector<store::Fragment> files_of_equal_size(const fs::path& folder,
     for (const std::string& name : same_size) {
       files.emplace_back();
       files.back().name = name;
-      files.back().hash = hash_if_readable(folder / name);
+      files.back().hash = hash_if_readable(scans.at(name));
     }
   }
   return files;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -9,16 +10,22 @@
 
 namespace rejoin::batch {
 
-/// Names of all files in the folder (not below it) whose extension is one that mesh::load() knows, sorted by bytes;
-/// without the models that `rejoin match` and `assemble` write.
+/// The files of scans, by the names that their fragments go by.
+using Scans = std::map<std::string, std::filesystem::path>;
+
+/// All files in the folder whose extension is one that mesh::load() knows, without the models that `rejoin match` and `assemble`
+/// write.  Where it holds none, but folders with one scan each, however deep, as apps leave them: these scans by the folders' names.
 /// \throws IoError     the folder cannot be read
-/// \throws InputError  it holds fewer than two such files, or one whose name is no UTF-8
-std::vector<std::string> find_scans(const std::filesystem::path& folder);
+/// \throws InputError  it holds fewer than two scans, one whose name is no UTF-8, or folders of which one holds several
+Scans find_scans(const std::filesystem::path& folder);
+
+/// Sorted by bytes.
+std::vector<std::string> names_of(const Scans& scans);
 
 /// What to tell of the models in the folder that find_scans() leaves out; empty if there are none.
 std::string told_of_models(const std::filesystem::path& folder);
 
-/// What to tell of the folders below the folder, however deep, that hold scans, which find_scans() does not look for; empty if there
+/// What to tell of the folders below a folder of scans, however deep, that hold scans, which find_scans() leaves out; empty if there
 /// are none.  The surfaces that a run keeps are no scans; of folders below a link nothing is told.
 std::string told_of_folders(const std::filesystem::path& folder);
 
@@ -29,10 +36,8 @@ std::string content_hash(const std::filesystem::path& path);
 /// content_hash(), or store::kUnreadable where the file cannot be read.
 std::string hash_if_readable(const std::filesystem::path& path);
 
-/// Name and hash_if_readable() of every file whose size another has, too.  No other file can be among store::copies().
-/// \param names  as find_scans() gives them
-std::vector<store::Fragment> files_of_equal_size(const std::filesystem::path& folder,
-                                                 const std::vector<std::string>& names);
+/// Name and hash_if_readable() of every scan whose file's size another's has, too.  No other can be among store::copies().
+std::vector<store::Fragment> files_of_equal_size(const Scans& scans);
 
 /// Scans of a run that are no longer what was matched, by name.
 struct ChangedScans {

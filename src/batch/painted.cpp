@@ -42,7 +42,8 @@ std::vector<std::string> painted_files(const fs::path& folder) {
 }  // namespace
 
 std::string painted_name(const std::string& scan) {
-  return fs::path(scan).stem().string() + kEnd + ".ply";
+  const fs::path name(scan);  // of a file, or of a folder, in whose name a dot ends nothing
+  return (mesh::has_scan_name(name) ? name.stem() : name).string() + kEnd + ".ply";
 }
 
 Painted find_painted(const fs::path& folder, const std::vector<std::string>& scans) {

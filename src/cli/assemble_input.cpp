@@ -192,7 +192,7 @@ bool is_run(const fs::path& folder) {
 }
 
 std::vector<std::string> names_in(const fs::path& folder) {
-  if (!is_run(folder)) return batch::find_scans(folder);
+  if (!is_run(folder)) return batch::names_of(batch::find_scans(folder));
   std::vector<std::string> names;
   for (const store::Fragment& fragment : store::Run::open(folder).fragments()) names.push_back(fragment.name);
   return names;

@@ -19,14 +19,14 @@ void Hints::define(CLI::App& app) {
 }
 
 void Hints::read_into(batch::Options& options, const std::string& scans) const {
-  if (layout_) options.layout = read_layout(*layout_, batch::find_scans(scans));
+  if (layout_) options.layout = read_layout(*layout_, batch::names_of(batch::find_scans(scans)));
   if (!painted_) return;
   std::error_code absent;
   if (std::filesystem::equivalent(*painted_, scans, absent)) {
     throw UsageError("--facets", "names the folder of the scans, where painted surfaces are taken for scans",
                      "move them to a folder of their own");
   }
-  options.painted = batch::find_painted(*painted_, batch::find_scans(scans));
+  options.painted = batch::find_painted(*painted_, batch::names_of(batch::find_scans(scans)));
 }
 
 }  // namespace rejoin::cli

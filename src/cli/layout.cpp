@@ -66,8 +66,22 @@ class Reader {
     for (const pugi::xml_node& layer : project.child("MeshGroup").children("MLMesh")) {
       if (std::string(layer.attribute("visible").as_string("1")) == "0") continue;
       const std::string file = layer.attribute("filename").as_string();
-      lay(file.substr(file.find_last_of("/\\") + 1), pose_of(layer), kNoScale);
+      lay(name_in(file), pose_of(layer), kNoScale);
     }
+  }
+
+  /// The fragment that a path leads to: the last of its parts that is one's name, for a scan may go by its folder's; else its last.
+  std::string name_in(const std::string& path) const {
+    std::size_t end = path.size();
+    while (true) {
+      const std::size_t slash = end == 0 ? std::string::npos : path.find_last_of("/\\", end - 1);
+      const std::size_t begin = slash == std::string::npos ? 0 : slash + 1;
+      std::string part = path.substr(begin, end - begin);
+      if (std::find(names_.begin(), names_.end(), part) != names_.end()) return part;
+      if (slash == std::string::npos) break;
+      end = slash;
+    }
+    return path.substr(path.find_last_of("/\\") + 1);
   }
 
   /// A layer without a matrix was not moved.

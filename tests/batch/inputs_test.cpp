@@ -25,6 +25,15 @@ class Inputs : public ::testing::Test {
     std::ofstream(folder_ / name, std::ios::binary) << content;
   }
 
+  std::string error_of_find() const {
+    try {
+      find_scans(folder_);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
   fs::path folder_;
 };
 
@@ -34,12 +43,14 @@ TEST_F(Inputs, ScansAreFoundByExtensionInAnyCaseAndSorted) {
     put(name, "x");
   fs::create_directory(folder_ / "folder.ply");
   ASSERT_EQ(mkfifo((folder_ / "pipe.ply").c_str(), 0600), 0);
-  EXPECT_EQ(find_scans(folder_), (std::vector<std::string>{"a.drc", "b.PLY", "c.glb"}));
+  EXPECT_EQ(names_of(find_scans(folder_)), (std::vector<std::string>{"a.drc", "b.PLY", "c.glb"}));
+  EXPECT_EQ(find_scans(folder_).at("b.PLY"), folder_ / "b.PLY");
   EXPECT_EQ(told_of_models(folder_).find("assembled.ply, joined.glb: left out"), 0U)
       << told_of_models(folder_);
 }
 
 TEST_F(Inputs, FoldersBelowWithScansAreTold) {
+  put("a.ply", "x");
   for (const char* name : {"notes", "result", "fragments", ".Trash", "old", "old/run", "old/run/fragments"})
     fs::create_directory(folder_ / name);
   put("run.sqlite", "");
@@ -54,18 +65,32 @@ TEST_F(Inputs, FoldersBelowWithScansAreTold) {
   put("trench 2/a.ply", "x");
   EXPECT_EQ(told_of_folders(folder_).find("1 folder with scans below "), 0U) << told_of_folders(folder_);
   EXPECT_NE(told_of_folders(folder_).find("(trench 2) left out"), std::string::npos);
-  fs::create_directories(folder_ / "phone/07");  // as apps export: a folder a scan, within another
+  fs::create_directories(folder_ / "phone/07");
   put("phone/07/textured.obj", "x");
   fs::create_directory_symlink(folder_ / "phone/07", folder_ / "linked");
   fs::create_directory_symlink(folder_, folder_ / "phone/round");
-  EXPECT_EQ(told_of_folders(folder_).find("3 folders with scans below "), 0U) << told_of_folders(folder_);
+  EXPECT_EQ(told_of_folders(folder_).find("4 folders with scans below "), 0U) << told_of_folders(folder_);
   EXPECT_NE(told_of_folders(folder_).find("(linked, ...) left out"), std::string::npos);
-  try {
-    find_scans(folder_);
-    FAIL() << "it holds no scan itself";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("folders below"), std::string::npos) << error.what();
-  }
+  EXPECT_NE(error_of_find().find("holds one scan only; put all scans into one folder, or each into"),
+            std::string::npos)
+      << error_of_find();
+}
+
+TEST_F(Inputs, ScansInFoldersOfTheirOwnGoByTheFoldersNames) {
+  for (const char* name : {"07", "08.b/source", "notes", ".Trash"}) fs::create_directories(folder_ / name);
+  put("07/textured.obj", "x");
+  put("07/textured.jpg", "x");
+  put("08.b/source/textured.obj", "x");
+  put(".Trash/old.ply", "x");
+  const Scans expected{{"07", folder_ / "07/textured.obj"}, {"08.b", folder_ / "08.b/source/textured.obj"}};
+  EXPECT_EQ(find_scans(folder_), expected);
+  EXPECT_EQ(told_of_folders(folder_), "");
+  put("08.b/raw.ply", "x");
+  EXPECT_NE(error_of_find().find("08.b: holds several scans; give it alone, or leave one"), std::string::npos)
+      << error_of_find();
+  fs::remove(folder_ / "08.b/raw.ply");
+  put("c.ply", "x");
+  EXPECT_NE(error_of_find().find("holds one scan only"), std::string::npos) << error_of_find();
 }
 
 TEST_F(Inputs, TooFewScansAreAnError) {
@@ -77,23 +102,12 @@ TEST_F(Inputs, TooFewScansAreAnError) {
 
 TEST_F(Inputs, RunInPlaceOfItsScansIsToldAsOne) {
   put("run.sqlite", "x");
-  try {
-    find_scans(folder_);
-    FAIL() << "accepted";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("it is a run"), std::string::npos) << error.what();
-  }
+  EXPECT_NE(error_of_find().find("it is a run"), std::string::npos) << error_of_find();
 }
 
 TEST_F(Inputs, NameThatIsNoUtf8IsRefusedAsItCouldNotBeToldApart) {
   for (const char* name : {"a.ply", "Gef\xe4\xdf.ply", "Gef\xe4\xe4.ply"}) put(name, "x");
-  try {
-    find_scans(folder_);
-    FAIL() << "accepted";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("Gef\uFFFD\uFFFD.ply: has a name"), std::string::npos)
-        << error.what();
-  }
+  EXPECT_NE(error_of_find().find("Gef\uFFFD\uFFFD.ply: has a name"), std::string::npos) << error_of_find();
 }
 
 TEST_F(Inputs, HashTellsContentNotName) {
@@ -153,8 +167,9 @@ TEST_F(Inputs, CopiesAreFoundByContentAndTheShortestNameStandsForAll) {
   put("d.ply", "one more");
   put("e.ply", "one");
   const std::map<std::string, std::string> expected{{"Copy of c.ply", "c.ply"}, {"e.ply", "c.ply"}};
-  const std::vector<store::Fragment> files =
-      files_of_equal_size(folder_, {"Copy of c.ply", "b.ply", "c.ply", "d.ply", "e.ply", "gone.ply"});
+  Scans scans = find_scans(folder_);
+  scans["gone.ply"] = folder_ / "gone.ply";
+  const std::vector<store::Fragment> files = files_of_equal_size(scans);
   EXPECT_EQ(files.size(), 4U) << "d.ply has a size of its own and need not be read";
   EXPECT_EQ(store::copies(files), expected);
 }

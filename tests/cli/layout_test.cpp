@@ -39,6 +39,15 @@ TEST(ReadLayout, TakesTheLayersOfAMeshLabProjectByTheNamesOfTheirFiles) {
   EXPECT_EQ(layout.at("a.ply")({1, 2, 3}), glm::dvec3(1, 2, 3)) << "was not moved";
 }
 
+TEST(ReadLayout, TakesLayersOfScansThatGoByTheirFoldersNames) {
+  const TemporaryFolder folder;
+  write_file(folder / "laid",
+             project(layer("box/07/textured.obj", kTurned) + layer("08\\source\\textured.obj", kTurned)));
+  const batch::Layout layout = read_layout(folder / "laid", {"07", "08"});
+  EXPECT_EQ(layout.size(), 2U);
+  EXPECT_EQ(layout.count("07") + layout.count("08"), 2U);
+}
+
 TEST(ReadLayout, LeavesOutWhatIsHiddenInMeshLab) {
   const batch::Layout layout = read(project(layer("a.ply", kTurned) + layer("d.ply", kTurned) +
                                             layer("b &amp; c.ply", kTurned, "visible=\"0\"") +
