@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
 #include <iterator>
 #include <mutex>
 #include <new>
@@ -110,10 +111,14 @@ void gather_surfaces(const std::vector<fs::path>& caches, const fs::path& cache)
       if (!fs::is_directory(from)) continue;
       for (const auto& entry : fs::directory_iterator(from)) {
         const fs::path to = cache / entry.path().filename();
-        if (!entry.is_regular_file() || fs::exists(to)) continue;
+        const bool whole =
+            entry.is_regular_file() && to.extension() != ".part";  // of a write that was cut off
+        if (!whole || fs::exists(to)) continue;
         std::error_code other_disk;
         fs::create_hard_link(entry.path(), to, other_disk);
-        if (other_disk) fs::copy_file(entry.path(), to);
+        if (!other_disk) continue;
+        std::ifstream content(entry.path(), std::ios::binary);
+        write_file(to, [&content](std::ostream& out) { out << content.rdbuf(); });
       }
     }
   } catch (const std::exception& error) {

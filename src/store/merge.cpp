@@ -133,10 +133,16 @@ void require_each_once(const std::vector<fs::path>& runs) {
   }
 }
 
+/// Whether the folder has a database; an empty file is none.
+bool has_database(const fs::path& folder) {
+  std::error_code absent;
+  const std::uintmax_t size = fs::file_size(folder / kFileName, absent);
+  return !absent && size > 0;
+}
+
 /// A whole may grow in its place, but a shard would be one no longer, and its own command would refuse to go on with it.
 void require_no_shard(const fs::path& output) {
-  std::error_code ignored;
-  if (!fs::exists(output / kFileName, ignored)) return;
+  if (!has_database(output)) return;
   const std::string shard = Run::open(output).shard();
   if (shard.empty()) return;
   throw StoreError(output.string(), fmt::format("holds shard {}, and the whole would take its place", shard),
@@ -188,9 +194,8 @@ struct Lost {
 
 /// \param complete  the runs are all shards of a folder: pairs of scans that they do not know are no loss
 Lost lost_by(SQLite::Database& whole, const fs::path& output, bool complete) {
-  std::error_code ignored;
+  if (!has_database(output)) return {};
   const fs::path file = output / kFileName;
-  if (!fs::exists(file, ignored)) return {};
   { const Run usable = Run::open(output); }
   SQLite::Statement attach(whole, "ATTACH ? AS part");
   attach.bind(1, detail::reading_address(file));
@@ -216,12 +221,28 @@ void require_nothing_lost(std::size_t lost, const fs::path& output) {
       "give another folder, name this one among the runs too, or remove it if it is out of date");
 }
 
+/// The output's first database is the new one, moved: never is there one that holds a part.
+void move_into_place(const fs::path& made, const fs::path& output) {
+  const fs::path file = output / kFileName;
+  std::error_code problem;
+  for (const char* journal : {"-wal", "-shm", "-journal"}) fs::remove(file.string() + journal, problem);
+  fs::rename(made, file, problem);
+  if (problem) {
+    throw StoreError(file.string(), fmt::format("cannot be written ({})", problem.message()),
+                     "check the folder and its permissions");
+  }
+}
+
 /// Makes the output's database a copy of the new one, as one transaction: who reads it meanwhile goes on reading the old content.
 void put_in_place(const fs::path& made, const fs::path& output) {
+  if (!has_database(output)) {
+    move_into_place(made, output);
+    return;
+  }
   const std::string path = (output / kFileName).string();
   detail::guarded(path, [&] {
     SQLite::Database source(made.string(), SQLite::OPEN_READONLY);
-    SQLite::Database target(path, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, detail::kPatience_ms);
+    SQLite::Database target(path, SQLite::OPEN_READWRITE, detail::kPatience_ms);
     target.exec("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL");
     if (SQLite::Backup(target, source).executeStep(-1) != SQLITE_DONE)
       throw StoreError(path, "is in use by another program", "close it there and run the command again");

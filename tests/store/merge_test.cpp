@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <fstream>
 
 #include "core/error.hpp"
 #include "store/run.hpp"
@@ -114,6 +115,15 @@ TEST_F(Merge, ResultOfOneRunOutlivesTheFailureOfAnother) {
   }
   EXPECT_THROW(merge({bad}, output()), StoreError) << "the output's result would be lost";
   EXPECT_EQ(store::Run::open(output()).candidates(1, 2).size(), 2U);
+}
+
+TEST_F(Merge, WhatAnInterruptedOneLeftIsNoDatabase) {
+  fs::create_directories(output());
+  std::ofstream(output() / kFileName);
+  std::ofstream(output() / "run.sqlite-wal") << "of a database that was there before";
+  merge({shard("x", {"a", "b"}, 0.5), shard("y", {"c", "d"}, 0.5)}, output());
+  EXPECT_EQ(store::Run::open(output()).pairs().size(), 2U);
+  EXPECT_EQ(store::Run::write(output()).pairs().size(), 2U);
 }
 
 TEST_F(Merge, WholeReplacesWhatWasThereButLosesNoPair) {
