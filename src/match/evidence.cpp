@@ -230,7 +230,9 @@ class Look {
     if (!c.has_shape()) return;
     const int rounds =
         most_samples_ > 0 ? 1 : kQuadricRounds;  // few samples have no bulk to tell from the rest
-    e.gap_spread = robust_deviation(c.core_gaps);
+    std::vector<double> gaps = c.core_gaps;
+    e.gap_middle = median(gaps);
+    e.gap_spread = robust_deviation(std::move(gaps));
     e.relief = robust_deviation(heights_above_quadric(c.core, glm::normalize(c.normal), rounds));
     std::tie(e.centre, e.along) = middle_and_axis(c.core);
     const double patches = static_cast<double>(c.core.size()) * c.share / e.patch_area;

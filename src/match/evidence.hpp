@@ -24,7 +24,9 @@ struct Evidence {
   double patch_area = 0;     ///< of a patch of surface whose relief is independent of the next one's
   int core_samples = 0;      ///< of the shared surface, those that are not next to another facet
   double gap_median = std::numeric_limits<double>::infinity();  ///< median_gap() over the shared area
-  double gap_spread = 0;  ///< robust deviation (1.48 MAD) of the gaps, mesh units
+  double gap_middle =
+      0;  ///< median of the core's gaps, mesh units; below 0 where the surfaces are in each other
+  double gap_spread = 0;  ///< robust deviation (1.48 MAD) of these, mesh units
   double relief = 0;      ///< robust deviation of the shared surface from a quadric: what there is to explain
   double information =
       0;  ///< how much shape agrees: n/2 log((relief^2 + noise^2) / (gap_spread^2 + noise^2)), nats,

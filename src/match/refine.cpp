@@ -63,6 +63,14 @@ void climb(Hypothesis& hypothesis, const Joint& joint, double step) {
   }
 }
 
+/// Takes back what the steps have pressed the surfaces into each other, which makes a joint with worn edges stronger, as more of them
+/// touch.
+void close(Hypothesis& hypothesis, const Joint& joint) {
+  const Evidence& before = hypothesis.evidence;
+  hypothesis.pose = Rigid{glm::dmat3(1.0), -before.gap_middle * before.normal} * hypothesis.pose;
+  hypothesis.evidence = joint.agreed_evidence(hypothesis.pose);
+}
+
 void tighten_one(Hypothesis& hypothesis, const Joint& joint) {
   const double t = joint.tolerance();
   const Rigid start = hypothesis.pose;
@@ -72,6 +80,7 @@ void tighten_one(Hypothesis& hypothesis, const Joint& joint) {
   if (score_of(hypothesis.strength) < kPossible) return;
   Hypothesis settled = hypothesis;
   for (const double step : kSteps) climb(settled, joint, step * t);
+  close(settled, joint);
   hypothesis.pose = settled.pose;  // not the strength: small steps gain at false poses as much
   hypothesis.evidence = settled.evidence;
 }
