@@ -316,8 +316,12 @@ class Work {
 
 }  // namespace
 
+std::string matcher() {
+  return kMatcherSource;
+}
+
 std::string version() {
-  return fmt::format("{} (matcher {})", kVersion, kMatcherSource);
+  return fmt::format("{} (matcher {})", kVersion, matcher());
 }
 
 Summary run(const fs::path& inputs, const fs::path& output, const Options& options, Listener& listener,

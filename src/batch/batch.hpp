@@ -61,8 +61,10 @@ struct Summary {
   bool cancelled = false;            ///< what is missing is done by the next run
 };
 
-/// By what a run is made, as its parameters keep it: the version, with a hash of the sources on which the result of a pair depends, for
-/// builds between two versions differ.
+/// A hash of the sources on which the result of a pair depends.
+std::string matcher();
+
+/// By what a run is made, as its parameters keep it: the version, with matcher(), for builds between two versions differ.
 std::string version();
 
 /// Matches all pairs of the folder's scans that the run's database lacks, several side by side.  The same inputs and options give the same

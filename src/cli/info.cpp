@@ -48,6 +48,7 @@ class InfoCommand final : public Command {
     }
     const nlohmann::ordered_json json = {{"schema", "rejoin.info/1"},
                                          {"version", kVersion},
+                                         {"matcher", batch::matcher()},
                                          {"threads", thread_count()},
                                          {"cores", std::thread::hardware_concurrency()},
                                          {"backends", list}};

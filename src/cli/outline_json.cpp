@@ -98,7 +98,7 @@ std::string assembly_json(const outline::PieceSet& set, const outline::Assembly&
   for (const auto* left_out : {&set.unusable, &set.repeated})
     for (const outline::LeftOut& piece : *left_out) unplaced.push_back(piece.name);
   const ordered_json json = {
-      {"schema", "rejoin.assembly/1"},
+      {"schema", "rejoin.outline-assembly/1"},
       {"fragments", fragments},
       {"joins", joins},
       {"touches", touches},

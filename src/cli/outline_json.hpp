@@ -24,7 +24,7 @@ struct OutlineSearch {
 std::string outline_match_json(const outline::Piece& a, const outline::Piece& b,
                                const outline::PairResult& result, const OutlineSearch& search);
 
-/// Schema "rejoin.assembly/1".
+/// Schema "rejoin.outline-assembly/1".
 std::string assembly_json(const outline::PieceSet& set, const outline::Assembly& assembly,
                           const OutlineSearch& search);
 

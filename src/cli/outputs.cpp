@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <exception>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -108,16 +109,20 @@ void require_apart(const std::string& option, const fs::path& output, const fs::
   if (fs::is_regular_file(output, ignored) && is_same(output, input)) refuse(option, output);
 }
 
-OutputFolder::OutputFolder(const fs::path& path) {
+OutputFolder::OutputFolder(const fs::path& path) : path_(path), exceptions_(std::uncaught_exceptions()) {
   std::error_code ignored;
-  const bool was_there = fs::exists(path, ignored);
+  made_ = !fs::exists(path, ignored);
   require_empty_folder(path);
-  if (!was_there) made_ = path;
 }
 
 OutputFolder::~OutputFolder() {
-  std::error_code holds_something;
-  if (!made_.empty()) fs::remove(made_, holds_something);
+  std::error_code ignored;
+  if (std::uncaught_exceptions() > exceptions_) {
+    for (fs::directory_iterator entry(path_, ignored), end; !ignored && entry != end;
+         entry.increment(ignored))
+      fs::remove_all(entry->path(), ignored);
+  }
+  if (made_) fs::remove(path_, ignored);  // unless it holds something
 }
 
 void require_apart_from_run(const std::string& option, const fs::path& output, const fs::path& run,

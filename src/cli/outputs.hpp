@@ -17,7 +17,8 @@ namespace rejoin::cli {
 void require_apart(const std::string& option, const std::filesystem::path& output,
                    const std::filesystem::path& input);
 
-/// A new or empty folder for outputs; one that was made for them goes again if nothing is written into it.
+/// A new or empty folder for outputs.  If an exception ends it, what was written goes, so that the same command can be given again;
+/// a folder that was made for outputs goes again if it holds none.
 class OutputFolder {
  public:
   /// \throws IoError as require_empty_folder()
@@ -27,7 +28,9 @@ class OutputFolder {
   OutputFolder& operator=(const OutputFolder&) = delete;
 
  private:
-  std::filesystem::path made_;  ///< empty if it was there
+  std::filesystem::path path_;
+  bool made_ = false;  ///< for the outputs
+  int exceptions_;
 };
 
 /// For a file that goes beside a run, or into it.

@@ -100,17 +100,32 @@ TEST_F(Outputs, AssembleReplacesModelsOfAnAssemblyAlone) {
   EXPECT_NE(read_file(scan), "precious");
 }
 
-TEST_F(Outputs, WhatIsLargerThanTheUserMayWriteIsToldAndLeavesNothing) {
-  const std::string colours = folder / "colours.ply";
+/// What the program tells that may write no file of more than `blocks` * 512 bytes, and fails by it.
+std::string told_of_limit(int blocks, const std::string& arguments) {
   const std::string command =
-      "ulimit -f 1; exec " REJOIN_PROGRAM " facets " + a + " --quiet --ply " + colours + " 2>&1";
+      "ulimit -f " + std::to_string(blocks) + "; exec " REJOIN_PROGRAM " " + arguments + " --quiet 2>&1";
   FILE* program = popen(command.c_str(), "r");
-  ASSERT_NE(program, nullptr);
   std::string told;
   for (int c = fgetc(program); c != EOF; c = fgetc(program)) told += static_cast<char>(c);
   const int status = pclose(program);
-  ASSERT_TRUE(WIFEXITED(status)) << "ended by a signal";
+  EXPECT_TRUE(WIFEXITED(status)) << "ended by a signal";
   EXPECT_EQ(WEXITSTATUS(status), 1);
+  return told;
+}
+
+TEST_F(Outputs, FolderOfPiecesThatWereNotAllWrittenIsEmptyAgain) {
+  const std::string pieces = folder / "pieces";
+  const std::string arguments = "shatter " + a + " --pieces 101 --spacing 5 --out " + pieces;
+  EXPECT_NE(told_of_limit(20, arguments).find("truth.json: cannot be written"), std::string::npos);
+  EXPECT_FALSE(fs::exists(pieces));
+  fs::create_directory(pieces);
+  told_of_limit(20, arguments);
+  EXPECT_TRUE(fs::is_empty(pieces));
+}
+
+TEST_F(Outputs, WhatIsLargerThanTheUserMayWriteIsToldAndLeavesNothing) {
+  const std::string colours = folder / "colours.ply";
+  const std::string told = told_of_limit(1, "facets " + a + " --ply " + colours);
   EXPECT_NE(told.find(colours), std::string::npos) << told;
   for (const auto& file : fs::directory_iterator(folder / "."))
     EXPECT_EQ(file.path().filename().string().find("colours"), std::string::npos) << file.path();
