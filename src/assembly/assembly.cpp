@@ -321,9 +321,26 @@ class Assembler {
       if (groups.first < 0 || groups.first == groups.second || !told.insert(groups).second) continue;
       result.doubts.push_back(
           fmt::format("{{{}}} and {{{}}} join (score {:.3f}) but are put into two objects, as that would put "
-                      "{{{}}} and {{{}}} into each other: are these two scans of one piece?",
-                      link.a, link.b, link.score, rejection.a, rejection.b));
+                      "{{{}}} and {{{}}} into each other: {}",
+                      link.a, link.b, link.score, rejection.a, rejection.b,
+                      question(result, groups, {rejection.a, rejection.b})));
     }
+  }
+
+  /// What to ask the user where two objects part though two pieces of theirs join.
+  /// \param overlap  the two that would be in each other
+  std::string question(const Result& result, const std::pair<int, int>& groups,
+                       const std::set<std::size_t>& overlap) const {
+    const auto group = [&](std::size_t piece) { return result.placements[piece].group; };
+    for (const auto& [a, b] : options_.constraints.must_not_join) {
+      if (std::minmax({group(a), group(b)}) == groups)
+        return fmt::format("do {{{}}} and {{{}}} not join, as you said?", a, b);
+    }
+    for (const auto& [a, b] : options_.constraints.must_join) {
+      if (group(a) == group(b) && (overlap.count(a) != 0 || overlap.count(b) != 0))
+        return fmt::format("do {{{}}} and {{{}}} join, as you said?", a, b);
+    }
+    return "are these two scans of one piece?";
   }
 
   void tell_broken_wishes(Result& result) const {

@@ -4,11 +4,13 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <map>
 #include <memory>
+#include <set>
 
 #include "batch/shelf.hpp"
 #include "core/error.hpp"
@@ -23,6 +25,10 @@
 namespace rejoin::batch {
 namespace fs = std::filesystem;
 namespace {
+
+/// Formats of scans that mesh::load() does not know.
+constexpr std::array kForeign{".3ds", ".3mf", ".asc", ".blend", ".ctm",  ".dae",  ".e57", ".fbx", ".las",
+                              ".laz", ".pcd", ".ptx", ".usd",   ".usdz", ".vrml", ".wrl", ".x3d", ".zpr"};
 
 bool is_scan(const fs::directory_entry& entry) {
   std::error_code ignored;
@@ -49,21 +55,29 @@ bool is_cache(const fs::path& folder) {
   return folder.filename() == kCacheName && fs::exists(folder.parent_path() / store::kFileName, ignored);
 }
 
-/// Scans by the folder that holds them, of all folders below, however deep; not those below links.
-std::map<fs::path, std::vector<fs::path>> scans_below(const fs::path& folder) {
-  std::map<fs::path, std::vector<fs::path>> scans;
+/// Visits what is in a folder and in all folders below, however deep; not those below links, hidden ones and caches.
+template <class Visit>
+void for_each_below(const fs::path& folder, const Visit& visit) {
   std::error_code problem;
   fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied, problem);
   for (const fs::recursive_directory_iterator end; !problem && entry != end; entry.increment(problem)) {
-    std::error_code ignored;
-    const fs::path& path = entry->path();
-    if (!entry->is_directory(ignored)) continue;
-    if (path.filename().string().starts_with('.') || is_cache(path)) {
+    if (entry->path().filename().string().starts_with('.') || is_cache(entry->path())) {
       entry.disable_recursion_pending();
-    } else if (std::vector<fs::path> files = scans_in(path, ignored); !files.empty()) {
-      scans[path] = std::move(files);
+    } else {
+      visit(*entry);
     }
   }
+}
+
+/// Scans by the folder that holds them, of all folders below.
+std::map<fs::path, std::vector<fs::path>> scans_below(const fs::path& folder) {
+  std::map<fs::path, std::vector<fs::path>> scans;
+  for_each_below(folder, [&](const fs::directory_entry& entry) {
+    std::error_code ignored;
+    if (!entry.is_directory(ignored)) return;
+    std::vector<fs::path> files = scans_in(entry.path(), ignored);
+    if (!files.empty()) scans[entry.path()] = std::move(files);
+  });
   return scans;
 }
 
@@ -151,6 +165,19 @@ std::string told_of_folders(const fs::path& folder) {
       "name of its own",
       counted(below.size(), "folder"), folder.string(),
       below.begin()->first.lexically_relative(folder).string(), below.size() == 1 ? "" : ", ...");
+}
+
+std::string told_of_formats(const fs::path& folder) {
+  std::set<std::string> names;
+  for_each_below(folder, [&](const fs::directory_entry& entry) {
+    std::error_code ignored;
+    if (entry.is_regular_file(ignored) && std::ranges::count(kForeign, extension_of(entry.path())) > 0)
+      names.insert(entry.path().lexically_relative(folder).string());
+  });
+  if (names.empty()) return "";
+  return fmt::format("{} of other formats in {} ({}{}) left out: export as PLY what is to be matched, too",
+                     counted(names.size(), "file"), folder.string(), *names.begin(),
+                     names.size() == 1 ? "" : ", ...");
 }
 
 std::string content_hash(const fs::path& path) {

@@ -29,6 +29,9 @@ std::string told_of_models(const std::filesystem::path& folder);
 /// are none.  The surfaces that a run keeps are no scans; of folders below a link nothing is told.
 std::string told_of_folders(const std::filesystem::path& folder);
 
+/// What to tell of scans in the folder, and below it, of formats that mesh::load() does not know; empty if there are none.
+std::string told_of_formats(const std::filesystem::path& folder);
+
 /// 128 bits of the content (XXH3) of mesh::files_of() as 32 hexadecimal digits; equal contents have equal hashes, under any name.
 /// \throws IoError a file cannot be read
 std::string content_hash(const std::filesystem::path& path);

@@ -92,6 +92,12 @@ TEST(Assemble, SecondScansOfTwoPiecesMakeAnObjectOfTheirOwnWhichIsTold) {
   EXPECT_EQ(result.placements[again].group, 1);
   ASSERT_EQ(result.doubts.size(), 1U) << "one for two objects, however many joins there are between them";
   EXPECT_NE(result.doubts.front().find("two scans of one piece"), std::string::npos) << result.doubts.front();
+  Options options;
+  options.constraints.must_join = {{again, again + 1}};
+  const std::string doubt = run(box, links, options).doubts.front();
+  const std::string asked =
+      "do {" + std::to_string(again) + "} and {" + std::to_string(again + 1) + "} join, as you said?";
+  EXPECT_NE(doubt.find(asked), std::string::npos) << doubt;
 }
 
 TEST(Assemble, AFalseJoinGivesWayToTheLoopsThatContradictIt) {

@@ -93,6 +93,17 @@ TEST_F(Inputs, ScansInFoldersOfTheirOwnGoByTheFoldersNames) {
   EXPECT_NE(error_of_find().find("holds one scan only"), std::string::npos) << error_of_find();
 }
 
+TEST_F(Inputs, ScansOfOtherFormatsAreTold) {
+  fs::create_directories(folder_ / "07");
+  for (const char* name : {"a.ply", "b.ply", "notes.txt", "07/textured.mtl"}) put(name, "x");
+  EXPECT_EQ(told_of_formats(folder_), "");
+  put("c.E57", "x");
+  put("07/textured.fbx", "x");
+  EXPECT_EQ(told_of_formats(folder_),
+            "2 files of other formats in " + folder_.string() +
+                " (07/textured.fbx, ...) left out: export as PLY what is to be matched, too");
+}
+
 TEST_F(Inputs, TooFewScansAreAnError) {
   EXPECT_THROW(find_scans(folder_), InputError);
   put("a.ply", "x");
