@@ -211,6 +211,7 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
   if (!context.cancelled()) tighten(hypotheses, joint, b, std::max(a.diameter, b.diameter));
   if (near) keep_near(hypotheses, *near);
   weigh(hypotheses, joint);
+  close(hypotheses, joint);
   clock.lap("align");
 
   context.report("verify", 0.8);

@@ -63,14 +63,6 @@ void climb(Hypothesis& hypothesis, const Joint& joint, double step) {
   }
 }
 
-/// Takes back what the steps have pressed the surfaces into each other, which makes a joint with worn edges stronger, as more of them
-/// touch.
-void close(Hypothesis& hypothesis, const Joint& joint) {
-  const Evidence& before = hypothesis.evidence;
-  hypothesis.pose = Rigid{glm::dmat3(1.0), -before.gap_middle * before.normal} * hypothesis.pose;
-  hypothesis.evidence = joint.agreed_evidence(hypothesis.pose);
-}
-
 void tighten_one(Hypothesis& hypothesis, const Joint& joint) {
   const double t = joint.tolerance();
   const Rigid start = hypothesis.pose;
@@ -80,7 +72,6 @@ void tighten_one(Hypothesis& hypothesis, const Joint& joint) {
   if (score_of(hypothesis.strength) < kPossible) return;
   Hypothesis settled = hypothesis;
   for (const double step : kSteps) climb(settled, joint, step * t);
-  close(settled, joint);
   hypothesis.pose = settled.pose;  // not the strength: small steps gain at false poses as much
   hypothesis.evidence = settled.evidence;
 }
@@ -182,6 +173,18 @@ void weigh(std::vector<Hypothesis>& list, const Joint& joint) {
     }
   });
   sort_by_rank(list);
+}
+
+void close(std::vector<Hypothesis>& list, const Joint& joint) {
+  parallel_for(list.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) {
+      Hypothesis& hypothesis = list[k];
+      if (score_of(hypothesis.strength) < kPossible) continue;
+      const Evidence& open = hypothesis.evidence;
+      hypothesis.pose = Rigid{glm::dmat3(1.0), -open.gap_middle * open.normal} * hypothesis.pose;
+      hypothesis.evidence = weigh(joint.agreed_evidence(hypothesis.pose), joint, hypothesis.pose);
+    }
+  });
 }
 
 }  // namespace rejoin::match
