@@ -45,6 +45,14 @@ constexpr double kMostBlurred = 0.3;
 /// The border's direction at a point is that from this many points before to as many after.
 constexpr std::size_t kDirectionReach = 4;
 
+/// A field without soft edges has a staircase border; this takes the short steps off (pixels, standard deviation).
+constexpr double kStaircaseBlur = 0.7;
+/// Contours that follow the pixels' steps by more have one, pixels.
+constexpr double kStaircase = 0.15;
+/// A place that lies anywhere in a pixel is so far from its middle (1 / sqrt(12), rms).  A lens hides the steps of a border that was
+/// turned as black and white, but leaves the long ones of shallow slopes as they are.
+constexpr double kHardRaster = 0.29;
+
 /// What is left out as dust may be none if it covers this many pixels and this share of what would not be dust.
 constexpr double kLargestSpeck = 400.0;
 constexpr double kDoubtfulDust = 0.1;
@@ -288,7 +296,15 @@ Extraction extract(const std::string& path, const ExtractOptions& options) {
   Extraction result;
   const cv::Mat image = picture::load_image(path, options.max_pixels, &result.notes);
   detail::Coverage coverage = detail::coverage(image, path);
-  Loops loops = sort_loops(detail::contours(coverage.field, 0.5F, kLeastPoints));
+  std::vector<Polygon> all = detail::contours(coverage.field, 0.5F, kLeastPoints);
+  const bool hard = detail::raster_of(all) > kStaircase;
+  if (hard) {
+    // A padded blur, so that a piece at the picture's border is not drawn inwards.
+    cv::GaussianBlur(coverage.field, coverage.field, cv::Size(), kStaircaseBlur, kStaircaseBlur,
+                     cv::BORDER_REPLICATE);
+    all = detail::contours(coverage.field, 0.5F, kLeastPoints);
+  }
+  Loops loops = sort_loops(std::move(all));
   if (loops.outer.empty()) {
     throw InputError(path, "no piece: what stands out is smaller than a few pixels", "scan with more pixels");
   }
@@ -302,6 +318,7 @@ Extraction extract(const std::string& path, const ExtractOptions& options) {
     Outline outline;
     outline.colour = border_colours(polygon, image);
     outline.points = std::move(polygon);
+    if (hard) outline.raster = kHardRaster;
     result.pieces.push_back(std::move(outline));
   }
   assign_holes(loops.holes, result.pieces);

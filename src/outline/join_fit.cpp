@@ -62,13 +62,17 @@ struct JoinFitter::State {
   std::vector<std::vector<ScaleSignal>> scales;  ///< of each border
   std::vector<double> perimeters;                ///< the same
   std::vector<double> areas;                     ///< of each piece
+  std::vector<double> rasters;                   ///< the same
   std::vector<detail::DistanceGrid> grids;
   std::vector<double> limits;  ///< of each scale
   double step = 0.0;
   double tolerance = 0.0;
 
   detail::ScaledBorder border(std::size_t number) const {
-    return {&scales[number], &limits, {&scales[number][kFitScale], perimeters[number]}};
+    return {&scales[number],
+            &limits,
+            {&scales[number][kFitScale], perimeters[number]},
+            rasters[borders[number].piece]};
   }
 
   void find_limits() {
@@ -109,6 +113,7 @@ JoinFitter::JoinFitter(const std::vector<Piece>& pieces, const FitOptions& optio
   s.scales.resize(s.borders.size());
   s.perimeters.resize(s.borders.size());
   s.areas.resize(count);
+  for (const Piece& piece : pieces) s.rasters.push_back(piece.outline.raster);
   std::vector<std::optional<detail::DistanceGrid>> grids(count);
   const int scales = std::max(options.scales, static_cast<int>(kFitScale) + 1);
   parallel_for(s.borders.size(), 1, [&](std::size_t first, std::size_t last) {

@@ -78,6 +78,8 @@ struct Outline {
   std::vector<glm::dvec2> points;              ///< closed, without a repeated end point; at least 3
   std::vector<std::vector<glm::dvec2>> holes;  ///< closed in the same way; may be empty
   std::vector<glm::dvec3> colour;  ///< of each point, sRGB 0..1, from just inside the border; empty: unknown
+  double raster =
+      0.0;  ///< rms distance of the points from the true border where they follow the pixels' steps, file units
 };
 
 /// One of an outline's borders: 0 the outer one, k the k-th hole's.  \pre hole <= outline.holes.size()

@@ -1,6 +1,8 @@
 #include "outline/detail/contour.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 namespace rejoin::outline::detail {
@@ -108,6 +110,28 @@ class Tracer {
 
 std::vector<std::vector<glm::dvec2>> contours(const cv::Mat& field, float level, std::size_t least_points) {
   return Tracer(field, level).run(least_points);
+}
+
+double raster_of(const std::vector<std::vector<glm::dvec2>>& all) {
+  constexpr std::size_t kReach = 16;       // points to either side that tell the direction
+  constexpr double kAcross = 0.75;         // pixels that both coordinates change by over that reach
+  constexpr double kUniform = 1.0 / 12.0;  // mean square of what lies anywhere in a pixel, from its middle
+  constexpr double kFewest = 30.0;
+  double count = 0.0;
+  double squares = 0.0;
+  for (const std::vector<glm::dvec2>& contour : all) {
+    const std::size_t size = contour.size();
+    for (std::size_t i = 0; i < size; ++i) {
+      const glm::dvec2 along = contour[(i + kReach) % size] - contour[(i + size - kReach % size) % size];
+      if (std::min(std::abs(along.x), std::abs(along.y)) < kAcross) continue;
+      // One coordinate is whole, as contours cross the lines between pixels' centres.
+      const glm::dvec2 off = contour[i] - glm::floor(contour[i]);
+      const double place = std::abs(off.x - 0.5) < std::abs(off.y - 0.5) ? off.x : off.y;
+      squares += (place - 0.5) * (place - 0.5);
+      count += 1.0;
+    }
+  }
+  return count < kFewest ? 0.0 : std::max(0.0, std::sqrt(kUniform) - std::sqrt(squares / count));
 }
 
 }  // namespace rejoin::outline::detail

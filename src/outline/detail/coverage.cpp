@@ -15,8 +15,6 @@ namespace rejoin::outline::detail {
 namespace {
 
 constexpr int kBins = 1024;
-/// A mask without soft edges has a staircase border; this takes the steps off (pixels, standard deviation).
-constexpr double kStaircaseBlur = 0.7;
 /// Least difference in colour between pieces and background, 0..1 a channel.
 constexpr double kLeastContrast = 0.04;
 /// The background is plain if no more than this share of the frame is a piece or something else.
@@ -149,13 +147,6 @@ Coverage coverage_from_background(const cv::Mat& image, const std::string& path)
   return result;
 }
 
-/// Whether the mask has no values between outside and inside.
-bool is_binary(const cv::Mat& alpha) {
-  cv::Mat soft;
-  cv::inRange(alpha, 0.02, 0.98, soft);
-  return cv::countNonZero(soft) == 0;
-}
-
 }  // namespace
 
 Coverage coverage(const cv::Mat& image, const std::string& path) {
@@ -172,9 +163,6 @@ Coverage coverage(const cv::Mat& image, const std::string& path) {
   }
   if (most <= 0.5)
     throw InputError(path, "no piece: every pixel is transparent", "save the picture with its pieces opaque");
-  // A padded blur, so that a piece at the picture's border is not drawn inwards.
-  if (is_binary(alpha))
-    cv::GaussianBlur(alpha, alpha, cv::Size(), kStaircaseBlur, kStaircaseBlur, cv::BORDER_REPLICATE);
   return {alpha, {}, {}};
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "outline/detail/independence.hpp"
@@ -17,6 +18,11 @@ constexpr double kLeastSamples = 5.0;
 /// A straight border turns by up to so much from sample to sample at the finest scale, as the pixels' raster has it, root mean square,
 /// radians, and by half of it at each coarser one.  Straight borders of one slope have one raster and agree very well by it.
 constexpr double kRaster = 0.03;
+/// The same of pixels all in or all out, as a share of their raster and of the step: a staircase of steps of one pixel, smoothed, turns
+/// by up to 0.15 pixels a step.  That hides the fine scales of broken borders too, so a scale counts where it or one of the next
+/// coarser ones shows that the border is not straight.
+constexpr double kSteps = 0.8;
+constexpr std::size_t kWitnesses = 3;
 
 /// Correlation of paired numbers, summed up one pair at a time.
 struct Sums {
@@ -46,8 +52,8 @@ struct Sums {
     return fourth > 0.0 ? std::min(count, 3.0 * squares * squares / fourth) : count;
   }
 
-  /// Root mean square of those that are smaller.
-  double least_size() const { return std::sqrt(std::min(aa, bb) / count); }
+  double size_a() const { return std::sqrt(aa / count); }  ///< root mean square
+  double size_b() const { return std::sqrt(bb / count); }
 
   double correlation() const {
     const double variance_a = aa - a * a / count;
@@ -68,12 +74,19 @@ double turning_at(const ScaleSignal& signal, double sample, double limit) {
   return std::clamp(value, -limit, limit);
 }
 
+/// How much a straight border turns at a scale by its pixels' steps, root mean square, radians, where its slope is the worst for the
+/// scale, with half as much again.
+double turning_of_steps(const ScaledBorder& border, std::size_t k) {
+  return kSteps * border.raster / (*border.scales)[k].step;
+}
+
 /// What one scale says.
 struct Level {
   double told = 0.0;  ///< by each sample, natural logarithm
   double samples =
       0.0;  ///< that carry the turning, less what neighbours and other scales of a rough border share
   double independent = 0.0;  ///< of those that carry it, by the borders' own smoothness
+  bool bent = false;         ///< both borders, by more than their pixels' steps may bend straight ones
 };
 
 Level level_at(const ScaledBorder& a, const ScaledBorder& b, const std::vector<Contact>& contacts,
@@ -100,11 +113,14 @@ Level level_at(const ScaledBorder& a, const ScaledBorder& b, const std::vector<C
     turning_b.push_back(-turning_at(*here_b.signal, on_b, limit));
     sums.add(turning_a.back(), turning_b.back());
   }
-  if (sums.count < kLeastSamples || sums.least_size() < std::ldexp(kRaster, -static_cast<int>(k))) return {};
+  if (sums.count < kLeastSamples) return {};
+  const double least = std::min(sums.size_a(), sums.size_b());
+  if (least < std::ldexp(kRaster, -static_cast<int>(k))) return {};
   const double r = std::clamp(sums.correlation(), 0.0, 0.999);
   const double carrying = sums.carrying();
   return {-0.5 * std::log(1.0 - r * r), kIndependent * carrying,
-          carrying / sums.count * independent_samples(turning_a, turning_b)};
+          carrying / sums.count * independent_samples(turning_a, turning_b),
+          sums.size_a() > turning_of_steps(a, k) && sums.size_b() > turning_of_steps(b, k)};
 }
 
 /// The most that the borders' independent samples tell together: a scale has those of the coarser ones too, so each counts once, by the
@@ -129,9 +145,11 @@ double agreement(const ScaledBorder& a, const ScaledBorder& b, const std::vector
   std::vector<Level> levels;
   levels.reserve(a.scales->size());
   double sum = 0.0;
-  for (std::size_t k = 0; k < a.scales->size(); ++k) {
-    levels.push_back(level_at(a, b, contacts, k));
-    sum += levels.back().told * levels.back().samples;
+  for (std::size_t k = 0; k < a.scales->size(); ++k) levels.push_back(level_at(a, b, contacts, k));
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    const auto coarser = std::span(levels).subspan(k, std::min(kWitnesses, levels.size() - k));
+    if (std::ranges::none_of(coarser, &Level::bent)) levels[k] = {};
+    sum += levels[k].told * levels[k].samples;
   }
   return std::min(sum, most_told(std::move(levels)));
 }
