@@ -309,6 +309,21 @@ TEST_F(Read, OnePictureInSeveralFormatsIsOnePiece) {
   EXPECT_EQ(set.repeated.size(), 2U);
 }
 
+// Noise moves the places at which a contour crosses pixels, and how many there are.
+TEST_F(Read, ANoisyPictureSavedAsJpegIsOnePieceWithIt) {
+  cv::Mat noise(200, 220, CV_16SC3);
+  cv::RNG random(7);
+  random.fill(noise, cv::RNG::NORMAL, 0.0, 6.0);
+  cv::Mat picture;
+  cv::add(blot(30), noise, picture, cv::noArray(), CV_8U);
+  cv::imwrite((folder_ / "a.png").string(), picture);
+  cv::imwrite((folder_ / "a copy.jpg").string(), picture, {cv::IMWRITE_JPEG_QUALITY, 90});
+  const PieceSet set = read_folder(folder_.string());
+  ASSERT_EQ(set.pieces.size(), 1U);
+  EXPECT_EQ(set.pieces[0].name, "a.png");
+  EXPECT_EQ(set.repeated.size(), 1U);
+}
+
 TEST_F(Read, FolderTellsHowFarItIs) {
   for (const char* name : {"a.csv", "b.csv", "c.csv"}) write(name, "0,0\n9,0\n9,7\n0,8\n");
   std::vector<double> told;

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <opencv2/imgproc.hpp>
 #include <string>
@@ -16,24 +17,28 @@ namespace rejoin::outline::detail {
 namespace {
 
 /// Whether two pictures' pieces have the same outline and the same colours along it, but for what saving them in another format
-/// changes.
+/// changes: noise moves the points along the border too, and opens and closes holes in print.
 bool same_border_pixels(const Outline& a, const Outline& b) {
   constexpr std::size_t kPlaces = 64;
   constexpr double kApart = 0.75;   // pixels, on average; points of a contour are up to one apart
-  constexpr double kShade = 0.015;  // of the colour, on average
+  constexpr double kShade = 0.015;  // of the mean colour, in which noise cancels
+  constexpr double kArea = 0.01;    // of the larger
   const std::size_t count = a.points.size();
-  if (a.colour.size() != count || b.colour.size() != b.points.size() || a.holes.size() != b.holes.size())
-    return false;
-  if (std::max(count, b.points.size()) - std::min(count, b.points.size()) > count / 50) return false;
+  if (a.colour.size() != count || b.colour.size() != b.points.size()) return false;
+  const double area_a = signed_area(a.points);
+  const double area_b = signed_area(b.points);
+  if (std::abs(area_a - area_b) > kArea * std::max(area_a, area_b)) return false;
   double apart = 0.0;
-  double shade = 0.0;
-  for (std::size_t k = 0; k < kPlaces; ++k) {
+  glm::dvec3 shade(0.0);
+  for (std::size_t k = 0; k < kPlaces && apart < kApart; ++k) {
     const std::size_t i = k * count / kPlaces;
-    const std::size_t j = k * b.points.size() / kPlaces;
-    apart += glm::distance(a.points[i], b.points[j]) / kPlaces;
-    shade += glm::distance(a.colour[i], b.colour[j]) / kPlaces;
+    const auto off = [&](const glm::dvec2& p) { return glm::distance(p, a.points[i]); };
+    const auto nearest = std::ranges::min_element(b.points, {}, off);
+    apart += off(*nearest) / kPlaces;
+    shade += (a.colour[i] - b.colour[static_cast<std::size_t>(nearest - b.points.begin())]) /
+             static_cast<double>(kPlaces);
   }
-  return apart < kApart && shade < kShade;
+  return apart < kApart && glm::length(shade) < kShade;
 }
 
 bool same_outline(const Outline& a, const Outline& b) {
