@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <numeric>
 #include <optional>
+#include <set>
 #include <system_error>
 
 #include "cli/arguments.hpp"
@@ -21,6 +23,19 @@
 namespace rejoin::cli {
 namespace {
 
+/// How many parts of an object there would be without its weak joins.
+std::size_t firm_parts(const outline::Assembly& assembly, std::size_t group) {
+  std::vector<std::size_t> parts(assembly.placements.size());
+  std::iota(parts.begin(), parts.end(), std::size_t{0});
+  for (const outline::AssemblyJoin& join : assembly.joins)
+    if (join.score >= kUnsureScore)
+      std::ranges::replace(parts, std::size_t{parts[join.b]}, std::size_t{parts[join.a]});
+  std::set<std::size_t> distinct;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if (assembly.placements[i].group == group) distinct.insert(parts[i]);
+  return distinct.size();
+}
+
 std::string summary(const std::vector<outline::Piece>& pieces, const outline::Assembly& assembly) {
   std::vector<std::size_t> sizes;
   for (const outline::Placement& placement : assembly.placements) {
@@ -29,16 +44,28 @@ std::string summary(const std::vector<outline::Piece>& pieces, const outline::As
   }
   const auto proposed = std::count_if(assembly.joins.begin(), assembly.joins.end(),
                                       [](const outline::AssemblyJoin& join) { return join.proposed; });
+  const auto repeat_of = [&](std::size_t piece) -> std::string {
+    const auto repeat = std::ranges::find(assembly.repeats, piece, &outline::AssemblyRepeat::piece);
+    if (repeat == assembly.repeats.end()) return "";
+    return fmt::format(" (has the outline of {}: another scan of it, or cut to one shape)",
+                       pieces[repeat->of].name);
+  };
   std::string text = fmt::format("{} of {} pieces placed; {}",
                                  pieces.size() - assembly.unplaced.size() - assembly.untried.size(),
                                  pieces.size(), counted(assembly.joins.size(), "join"));
   if (!assembly.joins.empty())
     text += fmt::format(", {} found pair by pair, borders {:.3g} apart (rms)", proposed, assembly.rms);
   text += "\n";
-  for (std::size_t group = 0; group < sizes.size() && sizes[group] > 1; ++group)
-    text += fmt::format("  object {}: {} pieces\n", group + 1, sizes[group]);
+  for (std::size_t group = 0; group < sizes.size() && sizes[group] > 1; ++group) {
+    const std::size_t parts = firm_parts(assembly, group);
+    text += fmt::format("  object {}: {} pieces", group + 1, sizes[group]);
+    if (parts > 1)
+      text += fmt::format(", of which {} parts hold together by joins with scores below {} alone", parts,
+                          kUnsureScore);
+    text += "\n";
+  }
   for (const std::size_t piece : assembly.unplaced)
-    text += fmt::format("  fits nowhere: {}\n", pieces[piece].name);
+    text += fmt::format("  fits nowhere: {}{}\n", pieces[piece].name, repeat_of(piece));
   for (const std::size_t piece : assembly.untried)
     text += fmt::format("  not tried with all others: {}\n", pieces[piece].name);
   return text;

@@ -29,9 +29,6 @@ outline::PieceSet read_folder_or_end(const std::string& folder, const outline::E
   return outline::read_folder(folder, options, context);
 }
 
-/// A true join's score is hardly ever below.
-constexpr double kUnsure = 0.3;
-
 /// Those of six pieces.  More are seldom joined by one pair alone, and a search in full has more false candidates as well.
 constexpr std::size_t kFewPairs = 15;
 
@@ -170,7 +167,7 @@ ExitCode finished_with(const outline::PieceSet& set, Console& console) {
 }
 
 const char* outline_verdict(double score) {
-  return score >= outline::kSureScore ? "join" : score >= kUnsure ? "unsure" : "no join";
+  return score >= outline::kSureScore ? "join" : score >= kUnsureScore ? "unsure" : "no join";
 }
 
 }  // namespace rejoin::cli

@@ -76,6 +76,9 @@ outline::PieceSet load_folder(const std::string& folder, const outline::ExtractO
 /// The exit code of a command that has used a folder: kFailure, told, if a file of it could not be used.
 ExitCode finished_with(const outline::PieceSet& set, Console& console);
 
+/// A true join's score is hardly ever below: "no join".
+inline constexpr double kUnsureScore = 0.3;
+
 /// A score's verdict: "join", "unsure" or "no join".
 const char* outline_verdict(double score);
 

@@ -93,6 +93,9 @@ std::string assembly_json(const outline::PieceSet& set, const outline::Assembly&
   for (const std::size_t piece : assembly.unplaced) unplaced.push_back(pieces[piece].name);
   ordered_json untried = ordered_json::array();
   for (const std::size_t piece : assembly.untried) untried.push_back(pieces[piece].name);
+  ordered_json congruent = ordered_json::array();
+  for (const outline::AssemblyRepeat& repeat : assembly.repeats)
+    congruent.push_back({{"name", pieces[repeat.piece].name}, {"of", pieces[repeat.of].name}});
   // All that have no place, whatever the reason; the lists after it tell that.
   unplaced.insert(unplaced.end(), untried.begin(), untried.end());
   for (const auto* left_out : {&set.unusable, &set.repeated})
@@ -106,6 +109,7 @@ std::string assembly_json(const outline::PieceSet& set, const outline::Assembly&
       {"untried", untried},
       {"unusable", to_json(set.unusable)},
       {"repeated", to_json(set.repeated)},
+      {"congruent", congruent},
       {"rms", assembly.rms},
       {"search",
        {{"method", search.method}, {"seconds", search.seconds}, {"interrupted", search.interrupted}}},

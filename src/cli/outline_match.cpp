@@ -14,6 +14,7 @@
 #include "core/files.hpp"
 #include "core/png_mark.hpp"
 #include "mesh/load.hpp"
+#include "outline/congruence.hpp"
 #include "outline/stitch.hpp"
 #include "report/outline_pictures.hpp"
 
@@ -83,11 +84,17 @@ class OutlineMatchCommand final : public Command {
     const std::unique_ptr<outline::Matcher> matcher = make_matcher(method_, multiscale);
     context.report("comparing outlines", 0.0);
     matcher->prepare(pieces);
-    const outline::PairResult result = matcher->match(0, 1, context);
+    const bool congruent = outline::congruent(pieces[0].outline, pieces[1].outline);
+    const outline::PairResult result = congruent ? outline::PairResult{} : matcher->match(0, 1, context);
     const double seconds = seconds_since(begin);
     console.end_progress();
     console.detail(fmt::format("compared by {} after {:.2f} s, {} candidates", name_of(method_), seconds,
                                result.candidates.size()));
+    if (congruent) {
+      console.warning(
+          fmt::format("{} and {} are the same piece, or cut to one shape: their outlines are congruent",
+                      pieces[0].name, pieces[1].name));
+    }
     const bool cancelled = context.cancelled();
     if (cancelled) console.warning("interrupted; what follows is the best so far");
     if (json_ && cancelled && keeps_earlier(*json_, {*json_}, "match", console)) json_.reset();

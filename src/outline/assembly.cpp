@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "core/parallel.hpp"
+#include "outline/congruence.hpp"
 #include "outline/detail/links.hpp"
 #include "outline/layout.hpp"
 #include "outline/shared_border.hpp"
@@ -243,13 +244,18 @@ class Description {
 
   Assembly assembly() {
     result_.placements.resize(layout_.size());
-    std::vector<std::size_t> order;
-    for (std::size_t g = 0; g < layout_.size(); ++g)
-      if (!layout_.members(g).empty()) order.push_back(g);
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t p, std::size_t q) {
-      return layout_.members(p).size() > layout_.members(q).size();
-    });
-    for (std::size_t number = 0; number < order.size(); ++number) add_group(order[number], number);
+    std::vector<std::vector<std::size_t>> groups;
+    for (std::size_t g = 0; g < layout_.size(); ++g) {
+      const std::vector<std::size_t>& members = layout_.members(g);
+      if (members.size() > 1 && add_joins(g)) {
+        groups.push_back(members);
+        continue;
+      }
+      for (const std::size_t piece : members) groups.push_back({piece});
+    }
+    std::stable_sort(groups.begin(), groups.end(),
+                     [](const auto& p, const auto& q) { return p.size() > q.size(); });
+    for (std::size_t number = 0; number < groups.size(); ++number) place(groups[number], number);
     std::sort(result_.unplaced.begin(), result_.unplaced.end());
     std::stable_sort(result_.joins.begin(), result_.joins.end(),
                      [](const AssemblyJoin& p, const AssemblyJoin& q) {
@@ -260,33 +266,36 @@ class Description {
   }
 
  private:
-  void add_group(std::size_t group, std::size_t number) {
-    const std::vector<std::size_t>& members = layout_.members(group);
-    std::map<std::pair<std::size_t, std::size_t>, Contact> contacts;
-    for (const PlacedContact& c : layout_.contacts_within(group)) contacts[{c.a, c.b}] = c.contact;
+  void place(const std::vector<std::size_t>& members, std::size_t number) {
     const bool alone = members.size() == 1;
     for (const std::size_t piece : members) {
-      result_.placements[piece] = {alone ? Planar{} : layout_.pose(piece), number, 0.0};
+      result_.placements[piece].pose = alone ? Planar{} : layout_.pose(piece);
+      result_.placements[piece].group = number;
       if (alone) result_.unplaced.push_back(piece);
     }
-    if (!alone) add_joins(members, contacts);
   }
 
-  void add_joins(const std::vector<std::size_t>& members,
-                 const std::map<std::pair<std::size_t, std::size_t>, Contact>& contacts) {
+  /// \return false, and nothing is added: the group's pieces share no more than corners
+  bool add_joins(std::size_t group) {
+    std::map<std::pair<std::size_t, std::size_t>, double> contacts;
+    for (const PlacedContact& c : layout_.contacts_within(group)) contacts[{c.a, c.b}] = c.contact.length;
     std::vector<Planar> poses;
     poses.reserve(layout_.size());
     for (std::size_t i = 0; i < layout_.size(); ++i) poses.push_back(layout_.pose(i));
-    for (const SharedBorder& border : shared_borders(pieces_, members, poses, linked_.tolerance)) {
-      const auto measured = contacts.find({border.a, border.b});
-      const Contact contact = measured == contacts.end() ? Contact{} : measured->second;
+    const std::vector<SharedBorder> borders =
+        shared_borders(pieces_, layout_.members(group), poses, linked_.tolerance);
+    const auto is_touch = [&](const SharedBorder& border) {
+      return std::min(contacts[{border.a, border.b}], border.length) < kShortestJoin * linked_.step;
+    };
+    if (std::ranges::all_of(borders, is_touch)) return false;
+    for (const SharedBorder& border : borders) {
       const std::optional<double> score = proposed_score(linked_, border, layout_);
       const AssemblyJoin join{border.a, border.b, score.value_or(0.0), border.length, score.has_value()};
       for (const std::size_t piece : {border.a, border.b}) {
         double& confidence = result_.placements[piece].confidence;
         confidence = 1.0 - (1.0 - confidence) * (1.0 - join.score);
       }
-      if (std::min(contact.length, border.length) < kShortestJoin * linked_.step) {
+      if (is_touch(border)) {
         result_.touches.push_back(join);
         continue;
       }
@@ -294,6 +303,7 @@ class Description {
       squares_ += border.length * border.rms * border.rms;
       length_ += border.length;
     }
+    return true;
   }
 
   const std::vector<Piece>& pieces_;
@@ -303,6 +313,21 @@ class Description {
   double squares_ = 0.0;
   double length_ = 0.0;
 };
+
+/// \param unplaced  ascending
+std::vector<AssemblyRepeat> repeats_of(const std::vector<Piece>& pieces,
+                                       const std::vector<std::size_t>& unplaced) {
+  std::vector<AssemblyRepeat> repeats;
+  for (const std::size_t piece : unplaced) {
+    for (std::size_t other = 0; other < pieces.size(); ++other) {
+      if (other >= piece && std::ranges::binary_search(unplaced, other)) continue;
+      if (!congruent(pieces[piece].outline, pieces[other].outline)) continue;
+      repeats.push_back({piece, other});
+      break;
+    }
+  }
+  return repeats;
+}
 
 }  // namespace
 
@@ -315,6 +340,7 @@ Assembly assemble(const std::vector<Piece>& pieces, const std::vector<PairResult
   for (std::size_t g = 0; g < pieces.size() && !context.cancelled(); ++g)
     assembler.layout().spread_error(g, linked.tolerance, 4);
   Assembly assembly = Description(pieces, linked, assembler.layout()).assembly();
+  assembly.repeats = repeats_of(pieces, assembly.unplaced);
   assembly.similarity = detail::similarity(linked);
   assembly.cancelled = context.cancelled();
   return assembly;
@@ -333,7 +359,8 @@ Assembly assemble(const std::vector<Piece>& pieces, const Matcher& matcher, cons
     const std::size_t count = std::min(kPortion, names.size() - begin);
     parallel_for(count, 1, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = begin + first; i < begin + last; ++i) {
-        pairs[i] = matcher.match(names[i].first, names[i].second, context);
+        const auto [a, b] = names[i];
+        if (!congruent(pieces[a].outline, pieces[b].outline)) pairs[i] = matcher.match(a, b, context);
         matched[i] = context.cancelled() ? 0 : 1;
       }
     });

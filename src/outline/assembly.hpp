@@ -36,6 +36,12 @@ struct AssemblyJoin {
       false;  ///< by the search for pairs; if not, the pieces lie side by side because of other joins
 };
 
+/// A piece without a place whose outline another piece has too, see congruent(): mostly a second scan of it.
+struct AssemblyRepeat {
+  std::size_t piece = 0;
+  std::size_t of = 0;  ///< one that is placed, or that comes before it
+};
+
 struct Assembly {
   std::vector<Placement> placements;  ///< one a piece
   std::vector<AssemblyJoin> joins;    ///< all that share more than a corner, best first
@@ -43,6 +49,7 @@ struct Assembly {
   std::vector<std::size_t> unplaced;  ///< pieces that fit nowhere
   std::vector<std::size_t>
       untried;  ///< pieces without a place whose pairs were not all looked at; see cancelled
+  std::vector<AssemblyRepeat> repeats;  ///< ascending by piece
   std::vector<std::vector<double>>
       similarity;    ///< length of the common border of each pair's best candidate, used or not; 0 if none
   double rms = 0.0;  ///< distance of the borders along all joins, file units
@@ -52,7 +59,7 @@ struct Assembly {
 /// Matches all pairs and joins them greedily, the most telling first.  When two groups become one, what their pieces
 /// have in common with a third adds up (the similarity matrix is merged).  A merge that makes pieces overlap or leaves
 /// a loop open is refused; pieces that stand in the way of a better join are taken off again.  At the end the error is
-/// spread over all joins by least squares.
+/// spread over all joins by least squares.  Congruent pieces are not matched with each other.
 /// \param matcher  prepared with these pieces
 /// \return for a context that is cancelled while pairs are matched: what those matched so far give, all joined, which
 ///         nothing but the end of the process stops; pieces that might fit where nobody looked are

@@ -35,6 +35,20 @@ TEST(OutlineMatch, FindsAPlantedJoinAndDrawsIt) {
   EXPECT_EQ(cv::imread(pictures + "/joined.png", cv::IMREAD_UNCHANGED).channels(), 4);
 }
 
+TEST(OutlineMatch, APieceAndItsCopyAreToldAndNoJoin) {
+  const BrokenShapes shapes;
+  const std::string a = shapes.pieces + "/piece_001.csv";
+  const std::string copy = shapes / "copy.csv";
+  write_file(copy, read_file(a) + "\n");  // the same bytes would be refused
+  const std::string file = shapes / "match.json";
+  const Finished done = run({"outline", "match", a, copy, "--json", file});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_NE(done.err.find("piece_001.csv and copy.csv are the same piece"), std::string::npos) << done.err;
+  const json match = json::parse(read_file(file));
+  EXPECT_EQ(match["verdict"], "no join");
+  EXPECT_TRUE(match["pose"].is_null());
+}
+
 TEST(OutlineMatch, APictureThatIsCutShortIsRefusedInOneLine) {
   const TemporaryFolder folder;
   const std::string good = good_picture(folder);
@@ -226,7 +240,8 @@ TEST(OutlineMatch, PicturesOfDifferentResolutionsAreTold) {
   EXPECT_NE(told.err.find("fine.tif says that it has 600 dots or units an inch, coarse.tif 300"),
             std::string::npos)
       << told.err;
-  EXPECT_EQ(run({"outline", "match", fine, write("same.tif", 600)}).err, "");
+  const Finished same = run({"outline", "match", fine, write("same.tif", 600)});
+  EXPECT_EQ(same.err.find("dots"), std::string::npos) << same.err;
 }
 
 TEST(OutlineMatch, AnOutlineOfThreePointsIsRefused) {

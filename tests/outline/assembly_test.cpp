@@ -153,6 +153,9 @@ TEST(Assembly, ASecondScanOfAPieceIsNotLaidOnTheFirst) {
   const Assembly assembly = assembled(board.pieces);
   ASSERT_EQ(assembly.unplaced.size(), 1U);
   EXPECT_TRUE(assembly.unplaced[0] == 4 || assembly.unplaced[0] == 9) << assembly.unplaced[0];
+  ASSERT_EQ(assembly.repeats.size(), 1U);
+  EXPECT_EQ(assembly.repeats[0].piece, assembly.unplaced[0]);
+  EXPECT_EQ(assembly.repeats[0].of, 13U - assembly.unplaced[0]);
   ASSERT_EQ(assembly.joins.size(), once.size());
   const auto total = [](const std::vector<AssemblyJoin>& joins) {
     double sum = 0.0;

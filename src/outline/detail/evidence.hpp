@@ -12,7 +12,7 @@ namespace rejoin::outline::detail {
 struct ScaledBorder {
   const std::vector<ScaleSignal>* scales = nullptr;
   const std::vector<double>* limits =
-      nullptr;    ///< of each scale: turning beyond is cut off (corners count once)
+      nullptr;          ///< of each scale: turning beyond is cut off (corners count once)
   Border border;        ///< the contacts' samples
   double raster = 0.0;  ///< see Outline
 };
