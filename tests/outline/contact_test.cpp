@@ -22,6 +22,18 @@ Outline rectangle(glm::dvec2 low, glm::dvec2 high) {
   return outline;
 }
 
+TEST(Contact, StraightBordersBesideACornerSayNoMoreForTheirLength) {
+  const auto told = [](double side) {
+    Outline corner;
+    corner.points = {{0, 0}, {2 * side, 0}, {2 * side, side}, {side, side}, {side, 2 * side}, {0, 2 * side}};
+    const Silhouette a(corner, 1.0, 1.0);
+    const Silhouette b(rectangle({side, side}, {2 * side, 2 * side}), 1.0, 1.0);
+    return measure_contact(a, b, {}, 1.5).information;
+  };
+  EXPECT_GT(told(100.0), 0.0);
+  EXPECT_LE(told(400.0), told(100.0));
+}
+
 TEST(DistanceField, IsTheDistanceToACircle) {
   const DistanceField field(circle(50, 720), 0.5, 8.0);
   for (const double radius : {43.0, 47.0, 50.0, 52.0, 56.0}) {
