@@ -20,7 +20,8 @@ struct ScaledBorder {
 /// Sum over the scales of -n/2 log(1 - r^2), with r the correlation of the two borders' turning along the boundary (B's
 /// backward, sign changed) and n its number of samples (a bend between straight lines is not as many as it has samples), by
 /// what a rough border's tell anew.  No more than the borders' independent samples tell, by independent_samples() and each once: smooth
-/// borders show one shape at all scales.  Where ScaledBorder::raster tells of hard edges, what may be their steps alone says nothing.  In natural logarithms; about 1 by chance.
+/// borders show one shape at all scales.  Where ScaledBorder::raster tells of hard edges, what may be their steps alone says
+/// nothing.  In natural logarithms; about 1 by chance.
 double agreement(const ScaledBorder& a, const ScaledBorder& b, const std::vector<Contact>& contacts);
 
 }  // namespace rejoin::outline::detail
