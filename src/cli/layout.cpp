@@ -72,16 +72,13 @@ class Reader {
 
   /// The fragment that a path leads to: the last of its parts that is one's name, for a scan may go by its folder's; else its last.
   std::string name_in(const std::string& path) const {
-    std::size_t end = path.size();
-    while (true) {
-      const std::size_t slash = end == 0 ? std::string::npos : path.find_last_of("/\\", end - 1);
-      const std::size_t begin = slash == std::string::npos ? 0 : slash + 1;
-      std::string part = path.substr(begin, end - begin);
+    const auto last_of = [](const std::string& of) { return of.substr(of.find_last_of("/\\") + 1); };
+    for (std::string rest = path; !rest.empty();) {
+      std::string part = last_of(rest);
       if (std::find(names_.begin(), names_.end(), part) != names_.end()) return part;
-      if (slash == std::string::npos) break;
-      end = slash;
+      rest.resize(rest.size() - std::min(rest.size(), part.size() + 1));
     }
-    return path.substr(path.find_last_of("/\\") + 1);
+    return last_of(path);
   }
 
   /// A layer without a matrix was not moved.

@@ -148,6 +148,32 @@ TEST(OutlineAssemble, AFileThatCannotBeUsedIsToldAndTheRestGoesOn) {
   EXPECT_EQ(rest["unplaced"], json::array({"bad.png"}));
 }
 
+TEST(OutlineAssemble, AnotherScanOfAPieceIsToldWhereItHasNoPlace) {
+  const BrokenShapes shapes;
+  std::istringstream points(read_file(shapes.pieces + "/piece_001.csv"));
+  std::ostringstream turned;
+  for (std::string line; std::getline(points, line);) {
+    double x = 0.0;
+    double y = 0.0;
+    if (std::sscanf(line.c_str(), "%lf,%lf", &x, &y) == 2)
+      turned << 0.6 * x - 0.8 * y + 70.0 << ',' << 0.8 * x + 0.6 * y << '\n';
+  }
+  write_file(shapes.pieces + "/turned.csv", turned.str());
+  const std::string file = shapes / "assembly.json";
+  const Finished done = run({"outline", "assemble", shapes.pieces, "--json", file});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  const json assembly = json::parse(read_file(file));
+  EXPECT_EQ(assembly["schema"], "rejoin.outline-assembly/1");
+  ASSERT_EQ(assembly["unplaced"].size(), 1U);
+  ASSERT_EQ(assembly["congruent"].size(), 1U);
+  const std::string left_over = assembly["congruent"][0]["name"];
+  const std::string placed = left_over == "turned.csv" ? "piece_001.csv" : "turned.csv";
+  EXPECT_EQ(assembly["unplaced"][0], left_over);
+  EXPECT_EQ(assembly["congruent"][0]["of"], placed);
+  EXPECT_NE(done.out.find("fits nowhere: " + left_over + " (has the outline of " + placed), std::string::npos)
+      << done.out;
+}
+
 TEST(OutlineAssemble, ACopyOfAPieceIsToldAndLeftOut) {
   const BrokenShapes shapes;
   const json without = shapes.assembled();
@@ -185,32 +211,6 @@ struct InterruptedAssembly {
     return finished;
   }
 };
-
-TEST(OutlineAssemble, AnotherScanOfAPieceIsToldWhereItHasNoPlace) {
-  const BrokenShapes shapes;
-  std::istringstream points(read_file(shapes.pieces + "/piece_001.csv"));
-  std::ostringstream turned;
-  for (std::string line; std::getline(points, line);) {
-    double x = 0.0;
-    double y = 0.0;
-    if (std::sscanf(line.c_str(), "%lf,%lf", &x, &y) == 2)
-      turned << 0.6 * x - 0.8 * y + 70.0 << ',' << 0.8 * x + 0.6 * y << '\n';
-  }
-  write_file(shapes.pieces + "/turned.csv", turned.str());
-  const std::string file = shapes / "assembly.json";
-  const Finished done = run({"outline", "assemble", shapes.pieces, "--json", file});
-  EXPECT_EQ(done.exit_code, 0) << done.err;
-  const json assembly = json::parse(read_file(file));
-  EXPECT_EQ(assembly["schema"], "rejoin.outline-assembly/1");
-  ASSERT_EQ(assembly["unplaced"].size(), 1U);
-  ASSERT_EQ(assembly["congruent"].size(), 1U);
-  const std::string left_over = assembly["congruent"][0]["name"];
-  const std::string placed = left_over == "turned.csv" ? "piece_001.csv" : "turned.csv";
-  EXPECT_EQ(assembly["unplaced"][0], left_over);
-  EXPECT_EQ(assembly["congruent"][0]["of"], placed);
-  EXPECT_NE(done.out.find("fits nowhere: " + left_over + " (has the outline of " + placed), std::string::npos)
-      << done.out;
-}
 
 TEST(OutlineAssemble, AfterCtrlCTellsWhichPiecesWereNotTried) {
   const InterruptedAssembly interrupted;

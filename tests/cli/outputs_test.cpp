@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -105,6 +106,7 @@ std::string told_of_limit(int blocks, const std::string& arguments) {
   const std::string command =
       "ulimit -f " + std::to_string(blocks) + "; exec " REJOIN_PROGRAM " " + arguments + " --quiet 2>&1";
   FILE* program = popen(command.c_str(), "r");
+  if (program == nullptr) throw std::runtime_error("no shell");
   std::string told;
   for (int c = fgetc(program); c != EOF; c = fgetc(program)) told += static_cast<char>(c);
   const int status = pclose(program);

@@ -83,6 +83,7 @@ TEST(Refine, WornEdgesDoNotPressTheSurfacesIntoEachOther) {
   EXPECT_EQ(list.front().strength, before);
   const glm::dvec3 middle = pair.planted.to_b(glm::dvec3(0.0)) - worn.origin;
   const glm::dvec3 error = list.front().pose(middle) - pair.truth(middle);
+  // A third of the break recedes, so the median is a little off that of the rest.
   EXPECT_LT(std::abs(glm::dot(error, pair.planted.direction_a)), 0.2 * joint.tolerance());
 }
 
