@@ -1,11 +1,13 @@
 /// Paper of nearly the background's colour.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.hpp"
 #include "outline/extract.hpp"
+#include "outline/polygon.hpp"
 #include "read_files.hpp"
 
 namespace rejoin::outline {
@@ -21,17 +23,50 @@ class FaintPaper : public testing::ReadFiles {
   }
 };
 
-TEST_F(FaintPaper, ItsPrintIsNotTakenForPieces) {
-  cv::Mat image(600, 600, CV_8UC3, cv::Scalar(226, 236, 240));
-  cv::rectangle(image, cv::Rect(80, 60, 430, 470), cv::Scalar(215, 230, 236), cv::FILLED);
+/// A printed page of 430 x 470 pixels.
+cv::Mat page(const cv::Scalar& background, const cv::Scalar& paper) {
+  cv::Mat image(600, 600, CV_8UC3, background);
+  cv::rectangle(image, cv::Rect(80, 60, 430, 470), paper, cv::FILLED);
   for (int y = 110; y < 500; y += 35)
     cv::putText(image, "sold to the parish one field", {110, y}, cv::FONT_HERSHEY_SIMPLEX, 0.7,
                 cv::Scalar(40, 30, 30), 2, cv::LINE_AA);
+  return image;
+}
+
+// Both are of one hue, 10 of 255 apart.
+TEST_F(FaintPaper, ItsPrintIsNotTakenForPieces) {
   try {
-    extract(saved(image));
+    extract(saved(page({226, 236, 240}, {217, 226, 230})));
     FAIL();
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("look like print"), std::string::npos) << error.what();
+  }
+}
+
+TEST_F(FaintPaper, OfAnotherHueIsThePiece) {
+  const Extraction found = extract(saved(page({251, 251, 251}, {228, 240, 244})));
+  ASSERT_EQ(found.pieces.size(), 1U);
+  EXPECT_TRUE(found.notes.empty()) << found.notes[0];
+  EXPECT_NEAR(signed_area(found.pieces[0].points), 430.0 * 470.0, 0.002 * 430.0 * 470.0);
+}
+
+// A shadow, 45 % at its darkest, falls on the scanner's lid below and to the right.
+TEST_F(FaintPaper, OfAnotherHueIsToldFromItsShadow) {
+  const cv::Rect paper(80, 60, 430, 470);
+  cv::Mat light(600, 600, CV_32F, cv::Scalar(1.0));
+  light(paper + cv::Point(6, 6)).setTo(0.55);
+  cv::GaussianBlur(light, light, cv::Size(), 6.0);
+  light(paper).setTo(1.0);
+  cv::Mat image = page({251, 251, 251}, {228, 240, 244});
+  for (int y = 0; y < image.rows; ++y)
+    for (int x = 0; x < image.cols; ++x) image.at<cv::Vec3b>(y, x) *= light.at<float>(y, x);
+  const Extraction found = extract(saved(image));
+  ASSERT_EQ(found.pieces.size(), 1U);
+  EXPECT_TRUE(found.notes.empty()) << found.notes[0];
+  const glm::dvec2 middle(294.5, 294.5);
+  for (const glm::dvec2& p : found.pieces[0].points) {
+    const glm::dvec2 off = glm::abs(p - middle) - glm::dvec2(215.0, 235.0);
+    EXPECT_NEAR(std::max(off.x, off.y), 0.0, 1.5) << p.x << ", " << p.y;
   }
 }
 

@@ -133,9 +133,11 @@ Coverage coverage_from_background(const cv::Mat& image, const std::string& path)
     throw InputError(path, "the background is not plain",
                      "leave plain background all around the pieces, or cut them out (alpha)");
   }
-  cv::Mat mask = foreground(background, image, classes.high_mean, classes.threshold);
-  clear_frame(distance, mask);
-  Coverage result{field_of(distance, mask), distance, {}};
+  Foreground found = foreground(background, image, classes.high_mean, classes.threshold);
+  clear_frame(distance, found.mask);
+  Coverage result{field_of(distance, found.mask), distance, {}};
+  result.field.setTo(0.0, found.shadow);
+  result.distance.setTo(0.0, found.shadow);
   if (!background.plain()) {
     constexpr double kAsBright = 0.995;  // a change of colour alone
     const bool darker = background.darkest() < kAsBright;

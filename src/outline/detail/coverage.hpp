@@ -9,7 +9,7 @@ namespace rejoin::outline::detail {
 
 struct Coverage {
   cv::Mat field;     ///< CV_32F, how much each pixel belongs to a piece; the border of the pieces at 0.5
-  cv::Mat distance;  ///< of each pixel's colour from the background's; empty where alpha tells
+  cv::Mat distance;  ///< of each pixel's colour from the background's, 0 in a shadow; empty where alpha tells
   std::vector<std::string> notes;  ///< what was repaired or may be wrong, a sentence each; for the user
 };
 

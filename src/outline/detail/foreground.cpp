@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <vector>
 
 #include "core/median.hpp"
@@ -30,12 +31,23 @@ constexpr float kDarkestShadow = 0.35F;
 /// in equal parts of each channel to within this,
 constexpr float kSameHue = 0.12F;
 /// and changes by less than this from pixel to pixel.
-constexpr float kSoft = 0.05F;
+constexpr float kSoft = 0.075F;
 /// A pixel of the frame is background if it is this much nearer to it than one of the next few inwards; print narrower than kStroke
 /// pixels is none.
 constexpr float kOutside = 0.4F;
 constexpr int kInwards = 4;
 constexpr int kStroke = 9;
+
+// Paper before a lighter background darkens it, too.  It is told from shadows by its hue: where it is even (as between print; it changes by
+// less from pixel to pixel), at least this light, and this far off the background's hue, one hue has this share of all that shadows may
+// be, and is twice as common as that half-way to the background's.
+constexpr float kEven = 0.02F;
+constexpr float kLightPaper = 0.75F;
+constexpr float kLeastHue = 0.02F;
+constexpr double kPaperShare = 0.2;
+constexpr float kHueBin = 0.005F;
+constexpr int kNoHue = 24;  // the bin in the middle
+constexpr int kHueBins = 2 * kNoHue + 1;
 
 /// If taking shadows off leaves less than this share of the foreground, they were none.
 constexpr double kLeastLeft = 0.5;
@@ -46,31 +58,81 @@ void for_rows(const cv::Mat& image, const std::function<void(int)>& row) {
   });
 }
 
-bool is_shade(const cv::Vec3f& pixel, const cv::Vec3f& behind) {
-  float low = 1.0F;
-  float high = 0.0F;
+/// Change of the distance from pixel to pixel; not for the outermost.
+float steepness(const cv::Mat& distance, int x, int y) {
+  const float across = 0.5F * (distance.at<float>(y, x + 1) - distance.at<float>(y, x - 1));
+  const float down = 0.5F * (distance.at<float>(y + 1, x) - distance.at<float>(y - 1, x));
+  return std::sqrt(across * across + down * down);
+}
+
+/// Shares of the background's light that a pixel has left, by channel, as their mean and what each is off it, as a share of it.
+struct Shade {
+  float light = 0.0F;
+  cv::Vec3f hue;
+};
+
+/// \return nothing if no shadow is like that
+std::optional<Shade> shade_of(const cv::Vec3f& pixel, const cv::Vec3f& behind) {
+  cv::Vec3f left;
   for (int c = 0; c < 3; ++c) {
-    if (behind[c] <= 0.0F) return false;
-    const float light = pixel[c] / behind[c];
-    low = std::min(low, light);
-    high = std::max(high, light);
+    if (behind[c] <= 0.0F) return {};
+    left[c] = pixel[c] / behind[c];
   }
-  return low > kDarkestShadow && high < 1.0F && high - low < kSameHue;
+  const float low = std::min({left[0], left[1], left[2]});
+  const float high = std::max({left[0], left[1], left[2]});
+  if (low <= kDarkestShadow || high >= 1.0F || high - low >= kSameHue) return {};
+  const float light = (left[0] + left[1] + left[2]) / 3.0F;
+  return Shade{light, left / light - cv::Vec3f::all(1.0F)};
+}
+
+/// The hue of paper that is as light as a shadow may be, as Shade has it; nothing if there is none.
+/// \param distance  of each pixel   \param least  what is nearer is background
+std::optional<cv::Vec3f> hue_of_paper(const Background& background, const cv::Mat& image,
+                                      const cv::Mat& distance, double least) {
+  cv::Mat counts = cv::Mat::zeros(kHueBins, kHueBins, CV_32F);  // by red and blue
+  const auto bin = [](float hue) { return cvRound(hue / kHueBin) + kNoHue; };
+  double all = 0.0;
+  for (int y = 1; y + 1 < image.rows; ++y) {
+    for (int x = 1; x + 1 < image.cols; ++x) {
+      if (distance.at<float>(y, x) < least || steepness(distance, x, y) >= kEven) continue;
+      const std::optional<Shade> shade = shade_of(image.at<cv::Vec3f>(y, x), background.colour(x, y));
+      if (!shade) continue;
+      ++all;
+      const cv::Point place(bin(shade->hue[0]), bin(shade->hue[2]));
+      if (shade->light > kLightPaper && cv::Rect({0, 0}, counts.size()).contains(place))
+        ++counts.at<float>(place);
+    }
+  }
+  cv::boxFilter(counts, counts, CV_32F, {3, 3}, {-1, -1}, false, cv::BORDER_CONSTANT);
+  cv::Mat coloured = counts.clone();
+  cv::circle(coloured, {kNoHue, kNoHue}, cvFloor(kLeastHue / kHueBin), 0.0, cv::FILLED);
+  double most = 0.0;
+  cv::Point mode;
+  cv::minMaxLoc(coloured, nullptr, &most, nullptr, &mode);
+  const cv::Point between((mode.x + kNoHue) / 2, (mode.y + kNoHue) / 2);
+  if (most <= kPaperShare * all || most < 2.0 * counts.at<float>(between)) return {};
+  const float blue = kHueBin * static_cast<float>(mode.x - kNoHue);
+  const float red = kHueBin * static_cast<float>(mode.y - kNoHue);
+  return cv::Vec3f(blue, -blue - red, red);
+}
+
+bool is_nearer_to(const cv::Vec3f& hue, const Shade& shade) {
+  return shade.hue.dot(hue) > 0.5F * hue.dot(hue);
 }
 
 /// Darker places of the background's own hue where nothing ends.
-cv::Mat shades(const Background& background, const cv::Mat& image, const cv::Mat& distance) {
+/// \param paper  hue_of_paper
+cv::Mat shades(const Background& background, const cv::Mat& image, const cv::Mat& distance,
+               const std::optional<cv::Vec3f>& paper) {
   cv::Mat result = cv::Mat::zeros(image.size(), CV_8U);
   const cv::Vec3f& brightest = background.brightest();
   if (brightest[0] + brightest[1] + brightest[2] < 3.0F * kShadowsFall) return result;
   for_rows(image, [&](int y) {
     if (y == 0 || y + 1 == image.rows) return;
     for (int x = 1; x + 1 < image.cols; ++x) {
-      const float across = 0.5F * (distance.at<float>(y, x + 1) - distance.at<float>(y, x - 1));
-      const float down = 0.5F * (distance.at<float>(y + 1, x) - distance.at<float>(y - 1, x));
-      if (across * across + down * down < kSoft * kSoft &&
-          is_shade(image.at<cv::Vec3f>(y, x), background.colour(x, y)))
-        result.at<uchar>(y, x) = 255;
+      if (steepness(distance, x, y) >= kSoft) continue;
+      const std::optional<Shade> shade = shade_of(image.at<cv::Vec3f>(y, x), background.colour(x, y));
+      if (shade && !(paper && is_nearer_to(*paper, *shade))) result.at<uchar>(y, x) = 255;
     }
   });
   const cv::Mat block = cv::getStructuringElement(cv::MORPH_RECT, {5, 5});
@@ -137,17 +199,20 @@ cv::Mat distance_from(const Background& background, const cv::Mat& image) {
   return distance;
 }
 
-cv::Mat foreground(const Background& background, const cv::Mat& image, double contrast, double most) {
+Foreground foreground(const Background& background, const cv::Mat& image, double contrast, double most) {
   cv::Mat smooth;
   cv::GaussianBlur(image, smooth, cv::Size(), kBlur, kBlur, cv::BORDER_REPLICATE);
   const cv::Mat distance = distance_from(background, smooth);
-  const double least = std::min(
-      most, std::max({kLeastDistance, kNoiseFactor * noise_of(distance, most), kRinging * contrast}));
+  const double noise = std::max(kLeastDistance, kNoiseFactor * noise_of(distance, most));
+  const std::optional<cv::Vec3f> paper = hue_of_paper(background, smooth, distance, noise);
+  const double least = std::min(most, paper ? noise : std::max(noise, kRinging * contrast));
   const cv::Mat bare = distance < least;
-  const cv::Mat shaded = touching(shades(background, smooth, distance), bare);
+  const cv::Mat shaded = touching(shades(background, smooth, distance, paper), bare);
   const cv::Mat all = ~bare;
-  cv::Mat lit = all & ~shaded;
-  return cv::countNonZero(lit) < kLeastLeft * cv::countNonZero(all) ? all : lit;
+  const cv::Mat lit = all & ~shaded;
+  if (!paper && cv::countNonZero(lit) < kLeastLeft * cv::countNonZero(all))
+    return {all, cv::Mat::zeros(all.size(), CV_8U)};
+  return {lit, shaded};
 }
 
 void clear_frame(const cv::Mat& distance, cv::Mat& mask) {

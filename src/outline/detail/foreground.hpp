@@ -11,12 +11,16 @@ namespace rejoin::outline::detail {
 /// \param image  CV_32FC3, 0..1   \return CV_32F
 cv::Mat distance_from(const Background& background, const cv::Mat& image);
 
+struct Foreground {
+  cv::Mat mask;    ///< CV_8U, 255 where a piece is, up to two pixels beyond its border
+  cv::Mat shadow;  ///< CV_8U, 255 where background is in a shadow
+};
+
 /// Pixels that differ from the background by more than it differs from itself.  Print and paint are often as near to the
 /// background as to the rest of their piece, so what is asked is not which of the two a pixel is nearer to.  Shadows are
 /// background: they darken it without another hue, and end slowly.
 /// \param contrast   distance that pieces mostly have   \param most  distance that no background has
-/// \return CV_8U, 255 where a piece is, up to two pixels beyond its border
-cv::Mat foreground(const Background& background, const cv::Mat& image, double contrast, double most);
+Foreground foreground(const Background& background, const cv::Mat& image, double contrast, double most);
 
 /// Takes background in the outermost pixels off a foreground, which smoothing has drawn to them where a piece is a pixel or two away:
 /// such a piece would seem to go on beyond the picture.
