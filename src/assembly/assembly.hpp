@@ -34,7 +34,7 @@ struct Options {
   double sure = 0.99;          ///< score from which a join is used without another witness
   double loop_weight = 5.0;    ///< what a second pair that agrees adds to the log-odds of a join
   double same_turn_deg = 8.0;  ///< poses of a pair that agree are turned by less against each other
-  double same_shift = 0.04;    ///< and shifted by less, share of the larger fragment's diameter
+  double same_shift = 0.04;    ///< and shifted by less, share of the smaller fragment's diameter
   int retries = 24;            ///< other orders that are tried where strong joins contradict each other
   Constraints constraints;
 };

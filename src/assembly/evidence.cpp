@@ -25,7 +25,7 @@ match::Evidence contact_evidence(const Piece& a, const Piece& b, const Rigid& b_
 bool same_pose(const Piece& a, const Piece& b, const Rigid& first, const Rigid& second,
                const Options& options) {
   if (angle_between(first, second) > options.same_turn_deg * kDegree) return false;
-  const double diameter = std::max(a.fragment().diameter, b.fragment().diameter);
+  const double diameter = std::min(a.fragment().diameter, b.fragment().diameter);
   return glm::distance(first(b.centre()), second(b.centre())) <= options.same_shift * diameter;
 }
 

@@ -51,6 +51,11 @@ constexpr double kOpen =
 constexpr double kWideOfSize = 0.25;  // of the piece: breaks of an open scan are narrower
 constexpr double kMostOfOpen = 0.2;   // of the piece: its breaks measure less across
 constexpr double kWideWalls = 2.5;    // wall thicknesses: breaks are narrower
+constexpr float kSidewards =
+    0.6F;  // cosine between a break and the nearest wall, at most, where the break goes through the wall;
+constexpr double kLeastSidewards =
+    0.18;  // breaks of sherds do so on this share of their surface at least, if they are
+constexpr double kMuchBroken = 0.2;  // this share of all or more
 
 using detail::Lists;
 
@@ -289,6 +294,29 @@ detail::OpenWalls open_walls(const Mesh& mesh, const Segmentation& s, const List
   return detail::open_walls(mesh, all, detail::smallest_facet(s), wide);
 }
 
+/// Whether what was taken for breaks hardly goes through what was taken for walls: the faces of a struck flake are parallel, too, but run out
+/// into sharp edges.
+bool is_flake(const Segmentation& s) {
+  std::vector<glm::vec3> walls;
+  std::vector<glm::vec3> normals;
+  for (std::size_t i = 0; i < s.samples.size(); ++i) {
+    if (s.surface[i] != Surface::Original) continue;
+    walls.push_back(s.samples.points[i]);
+    normals.push_back(s.normals[i]);
+  }
+  const std::size_t broken = s.samples.size() - walls.size();
+  if (walls.empty() || static_cast<double>(broken) < kMuchBroken * static_cast<double>(s.samples.size()))
+    return false;
+  const PointIndex index(walls);
+  std::size_t sidewards = 0;
+  for (std::size_t i = 0; i < s.samples.size(); ++i) {
+    if (s.surface[i] != Surface::Fracture) continue;
+    const auto nearest = index.nearest(s.samples.points[i]);
+    if (std::abs(glm::dot(s.normals[i], normals[nearest->first])) < kSidewards) ++sidewards;
+  }
+  return static_cast<double>(sidewards) < kLeastSidewards * static_cast<double>(broken);
+}
+
 /// Sets the samples, their normals and classes, and the wall thickness.
 /// \return the samples' neighbours
 Lists classify(const Mesh& mesh, double size, Segmentation& s) {
@@ -311,6 +339,11 @@ Lists classify(const Mesh& mesh, double size, Segmentation& s) {
   std::vector<bool> wide;
   if (open) wide = open_walls(mesh, s, seen.near, kWideWalls * s.wall_thickness).wall;
   classify_thin(s, seen.rays, seen.near, wide, walls.roughest);
+  if (!open && is_flake(s)) {
+    s.wall_thickness = 0;
+    seen = look(mesh, kSamples, s);
+    s.backed = meets_something(seen.rays);
+  }
   return std::move(seen.near);
 }
 

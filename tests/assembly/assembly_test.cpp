@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "assembly/evidence.hpp"
 #include "assembly/witness.hpp"
 #include "broken_balls.hpp"
 #include "core/parallel.hpp"
@@ -32,6 +33,22 @@ TEST(Assemble, AJoinThatPutsPiecesIntoEachOtherIsRejectedWithTheReason) {
   EXPECT_NE(result.placements[corner.b].reason.find("into each other"), std::string::npos)
       << result.placements[corner.b].reason;
   EXPECT_NE(result.placements[corner.c].reason.find("no pose was found"), std::string::npos);
+}
+
+TEST(SamePose, IsAskedOfTheSmallerPiece) {
+  mesh::Mesh small = ball().fragments[1].surface;
+  for (glm::vec3& v : small.vertices) v *= 0.1F;
+  const match::Fragment chip = match::prepare("chip", small, Context());
+  const Piece large(ball().fragments[0]);
+  const Piece little(chip);
+  const Options options;
+  const auto shifted = [&](double share) {
+    return Rigid{glm::dmat3(1.0), {share * options.same_shift * chip.diameter, 0, 0}};
+  };
+  ASSERT_GT(ball().fragments[0].diameter, 5.0 * chip.diameter);
+  EXPECT_TRUE(same_pose(large, little, Rigid{}, shifted(0.9), options));
+  EXPECT_FALSE(same_pose(large, little, Rigid{}, shifted(1.1), options));
+  EXPECT_FALSE(same_pose(little, large, Rigid{}, shifted(1.1), options));
 }
 
 /// A piece scanned a second time: other vertices on the same surface, lying elsewhere.

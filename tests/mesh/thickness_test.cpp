@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "facet_shapes.hpp"
@@ -20,6 +21,17 @@ TEST(Thickness, SolidBoxHasNoWall) {
 
 TEST(Thickness, PlateHasItsThickness) {
   EXPECT_NEAR(segment(box({60, 50, 4}, 30, flat)).wall_thickness, 4.0, 0.1);
+}
+
+// Its faces are parallel over most of it and run out into an edge.
+TEST(Thickness, StruckFlakeHasNoWall) {
+  Mesh flake = box({60, 40, 5}, 40, flat);
+  for (glm::vec3& v : flake.vertices) {
+    const glm::vec2 off(v.x / 30.0F - 1.0F, v.y / 20.0F - 1.0F);
+    v.z *= std::max(0.02F, 1.0F - std::max(std::pow(std::abs(off.x), 4.0F), std::pow(std::abs(off.y), 4.0F)));
+    v.z += 0.004F * (v.x - 30.0F) * (v.x - 30.0F);
+  }
+  EXPECT_EQ(segment(flake).wall_thickness, 0.0);
 }
 
 TEST(Thickness, SmallSherdOfAThickVesselHasItsWallAlsoWhereItBends) {

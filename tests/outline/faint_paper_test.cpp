@@ -17,7 +17,7 @@ class FaintPaper : public testing::ReadFiles {
  protected:
   std::string saved(cv::Mat image) {
     cv::GaussianBlur(image, image, cv::Size(), 0.6);
-    const std::string path = (folder_ / "page.png").string();
+    std::string path = (folder_ / "page.png").string();
     cv::imwrite(path, image);
     return path;
   }
