@@ -83,7 +83,7 @@ class ShatterCommand final : public Command {
     options_.erosion = erosion_ / 100.0;
     options_.noise = noise_ / 100.0;
     options_.spacing = spacing_ / 100.0;
-    const mesh::Loaded loaded = mesh::load(path_);
+    const mesh::Loaded loaded = mesh::load(path_, mesh::Weld::Places, mesh::Content::Whole);
     for (const std::string& warning : loaded.warnings) console.warning(warning);
     const shatter::Shattered shattered = shatter::shatter(path_, loaded.mesh, options_, context);
     console.end_progress();

@@ -142,6 +142,20 @@ void align(std::vector<Hypothesis>& hypotheses, const Joint& joint, const Fragme
   }
 }
 
+/// The pose that the user has laid, aligned, among the others by its rank and in place of the last, for others in reach may look better.
+void keep_laid(std::vector<Hypothesis>& hypotheses, const Joint& joint, const Fragment& a, const Fragment& b,
+               const Near& near, std::span<const Pass> rounds, const Options& options,
+               const Context& context) {
+  std::vector<Hypothesis> laid{{near.pose(), {}, 0.0, -1, -1}};
+  align(laid, joint, a, b, near, rounds, context);
+  if (laid.empty() || options.max_candidates < 2) return;
+  if (hypotheses.size() >= static_cast<std::size_t>(options.max_candidates)) hypotheses.pop_back();
+  const double worth = rank(laid.front().evidence);
+  const auto place =
+      std::ranges::find_if(hypotheses, [&](const Hypothesis& other) { return rank(other.evidence) < worth; });
+  hypotheses.insert(place, laid.front());
+}
+
 /// The largest strength, 0 without any; it need not be the first's, as poses are sorted by rank().
 double strongest(std::span<const Hypothesis> hypotheses) {
   double most = 0.0;
@@ -208,6 +222,7 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
   }
   if (!context.cancelled()) align(hypotheses, joint, a, b, near, std::span(rounds).subspan(kGlance), context);
   hypotheses.resize(std::min(hypotheses.size(), static_cast<std::size_t>(options.max_candidates)));
+  if (near && !context.cancelled()) keep_laid(hypotheses, joint, a, b, *near, rounds, options, context);
   if (!context.cancelled()) tighten(hypotheses, joint, b, std::max(a.diameter, b.diameter));
   if (near) keep_near(hypotheses, *near);
   weigh(hypotheses, joint);

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <queue>
 
@@ -51,11 +52,11 @@ constexpr double kOpen =
 constexpr double kWideOfSize = 0.25;  // of the piece: breaks of an open scan are narrower
 constexpr double kMostOfOpen = 0.2;   // of the piece: its breaks measure less across
 constexpr double kWideWalls = 2.5;    // wall thicknesses: breaks are narrower
-constexpr float kSidewards =
-    0.6F;  // cosine between a break and the nearest wall, at most, where the break goes through the wall;
-constexpr double kLeastSidewards =
-    0.18;  // breaks of sherds do so on this share of their surface at least, if they are
-constexpr double kMuchBroken = 0.2;  // this share of all or more
+// Breaks of sherds go through the walls: the cosine between a break and the nearest wall is this at most
+constexpr float kSidewards = 0.6F;
+constexpr double kLeastSidewards = 0.18;  // on this share of their surface at least,
+constexpr double kLeastSides =
+    0.36;  // or on this share of the area of a round sherd's side, whose border is the shortest.
 
 using detail::Lists;
 
@@ -296,7 +297,7 @@ detail::OpenWalls open_walls(const Mesh& mesh, const Segmentation& s, const List
 
 /// Whether what was taken for breaks hardly goes through what was taken for walls: the faces of a struck flake are parallel, too, but run out
 /// into sharp edges.
-bool is_flake(const Segmentation& s) {
+bool is_flake(const Mesh& mesh, const Segmentation& s) {
   std::vector<glm::vec3> walls;
   std::vector<glm::vec3> normals;
   for (std::size_t i = 0; i < s.samples.size(); ++i) {
@@ -304,9 +305,7 @@ bool is_flake(const Segmentation& s) {
     walls.push_back(s.samples.points[i]);
     normals.push_back(s.normals[i]);
   }
-  const std::size_t broken = s.samples.size() - walls.size();
-  if (walls.empty() || static_cast<double>(broken) < kMuchBroken * static_cast<double>(s.samples.size()))
-    return false;
+  if (walls.empty()) return false;
   const PointIndex index(walls);
   std::size_t sidewards = 0;
   for (std::size_t i = 0; i < s.samples.size(); ++i) {
@@ -314,7 +313,12 @@ bool is_flake(const Segmentation& s) {
     const auto nearest = index.nearest(s.samples.points[i]);
     if (std::abs(glm::dot(s.normals[i], normals[nearest->first])) < kSidewards) ++sidewards;
   }
-  return static_cast<double>(sidewards) < kLeastSidewards * static_cast<double>(broken);
+  const auto broken = static_cast<double>(s.samples.size() - walls.size());
+  const double each = surface_area(mesh) / static_cast<double>(s.samples.size());
+  const double face = 0.5 * static_cast<double>(walls.size()) * each;
+  const double side = 2.0 * std::sqrt(std::numbers::pi * face) * s.wall_thickness;
+  const double through = static_cast<double>(sidewards) * each;
+  return static_cast<double>(sidewards) < kLeastSidewards * broken && through < kLeastSides * side;
 }
 
 /// Sets the samples, their normals and classes, and the wall thickness.
@@ -339,7 +343,7 @@ Lists classify(const Mesh& mesh, double size, Segmentation& s) {
   std::vector<bool> wide;
   if (open) wide = open_walls(mesh, s, seen.near, kWideWalls * s.wall_thickness).wall;
   classify_thin(s, seen.rays, seen.near, wide, walls.roughest);
-  if (!open && is_flake(s)) {
+  if (!open && is_flake(mesh, s)) {
     s.wall_thickness = 0;
     seen = look(mesh, kSamples, s);
     s.backed = meets_something(seen.rays);

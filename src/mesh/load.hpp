@@ -26,6 +26,7 @@ enum class Weld {
 /// What a file is to be taken for.
 enum class Content {
   OnePiece,
+  Whole,    ///< an object that is not broken yet: cavities stay
   Several,  ///< pieces and what they lie on: small parts, strays and the normals of a cloud are left as they are (there may be none)
 };
 
@@ -36,7 +37,7 @@ bool has_scan_name(const std::filesystem::path& path);
 ///
 /// Points that are not finite are left out, with the faces that use them.  Equal vertices are welded (exactly equal ones: nothing depends on the scale), degenerate and duplicate faces dropped, specks
 /// far from the rest dropped (each less than 1 % of the area, farther away than a tenth of the size of the rest), lone vertices farther from the rest than four
-/// times its size, stray points of a cloud and vertices of no face dropped, faces wound against their neighbours or a surface that is inside out turned, cloud
+/// times its size, stray points of a cloud, closed surfaces inside the piece (cavities of a CT scan) and vertices of no face dropped, faces wound against their neighbours or a surface that is inside out turned, cloud
 /// normals made unit length, estimated where the file has none, and turned outwards.  Whatever changes the surface is said in a
 /// warning.  Non-manifold and open meshes load whole.
 ///

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "../mesh/shapes.hpp"
 #include "prepared_pair.hpp"
 
@@ -74,6 +76,20 @@ TEST(Near, NoAnswerLiesFarFromARoughPoseThatIsWrong) {
   EXPECT_NE(result.verdict, Verdict::Join);
   for (const Candidate& candidate : result.candidates)
     EXPECT_TRUE(near.holds(to_origins(pair.a, pair.b, candidate.pose)));
+}
+
+// Nothing joins there, and what the search finds within the limits touches more.  The laid pose moves a little as it is aligned.
+TEST(Near, TheLaidPoseIsAmongTheAnswersThoughOthersTouchMore) {
+  const Pair pair = make_pair(1);
+  for (const double turn : {120.0, 170.0}) {
+    Options options;
+    options.near = off(pair, turn, 0.0);
+    const Result result = match(pair.a, pair.b, options, Context{});
+    double least = 180.0;
+    for (const Candidate& candidate : result.candidates)
+      least = std::min(least, angle_between(candidate.pose, *options.near) / kDegree);
+    EXPECT_LT(least, 5.0) << turn;
+  }
 }
 
 }  // namespace

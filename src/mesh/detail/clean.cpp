@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/words.hpp"
 #include "mesh/detail/cloud_normals.hpp"
+#include "mesh/detail/enclosed.hpp"
 #include "mesh/detail/orient.hpp"
 #include "mesh/detail/point_box.hpp"
 #include "mesh/detail/soup.hpp"
@@ -152,12 +153,18 @@ void clean_faces(Loaded& loaded, const std::string& name, Content content) {
     loaded.warnings.push_back(
         fmt::format("{}: dropped {} of {} faces that are there twice", name, dropped.duplicate, before));
   }
-  const Specks specks = content == Content::OnePiece ? drop_specks(mesh) : Specks{};
+  const Specks specks = content != Content::Several ? drop_specks(mesh) : Specks{};
   if (specks.parts > 0) {
     loaded.warnings.push_back(
         fmt::format("{}: dropped {} of {} faces, in {} far from the rest (remove specks in the scanning "
                     "software)",
                     name, specks.faces, before, counted(specks.parts, "small part")));
+  }
+  const Enclosed enclosed = content == Content::OnePiece ? drop_enclosed(mesh) : Enclosed{};
+  if (enclosed.parts > 0) {
+    loaded.warnings.push_back(
+        fmt::format("{}: dropped {} of {} faces, in {} inside it, which no other piece can touch", name,
+                    enclosed.faces, before, counted(enclosed.parts, "part")));
   }
   drop_unused_vertices(mesh);
   if (const Spikes spikes = drop_spikes(mesh); spikes.vertices > 0) {
