@@ -54,9 +54,10 @@ constexpr double kMostOfOpen = 0.2;   // of the piece: its breaks measure less a
 constexpr double kWideWalls = 2.5;    // wall thicknesses: breaks are narrower
 // Breaks of sherds go through the walls: the cosine between a break and the nearest wall is this at most
 constexpr float kSidewards = 0.6F;
-constexpr double kLeastSidewards = 0.18;  // on this share of their surface at least,
-constexpr double kLeastSides =
-    0.36;  // or on this share of the area of a round sherd's side, whose border is the shortest.
+// on at least this share of the area of a round sherd's side, whose border is the shortest.
+constexpr double kLeastSides = 0.29;
+constexpr double kLeastAcross = 5.0;  // samples across the wall, to tell
+constexpr double kFlat = 3.0;  // wall thicknesses: a flake is flatter, unlike a vessel with hardly any break
 
 using detail::Lists;
 
@@ -295,6 +296,27 @@ detail::OpenWalls open_walls(const Mesh& mesh, const Segmentation& s, const List
   return detail::open_walls(mesh, all, detail::smallest_facet(s), wide);
 }
 
+/// Extent along the axis along which the points spread least.
+double least_extent(const std::vector<glm::vec3>& points) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const glm::vec3& p : points) mean += Eigen::Vector3d(p.x, p.y, p.z);
+  mean /= static_cast<double>(points.size());
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const glm::vec3& p : points) {
+    const Eigen::Vector3d off = Eigen::Vector3d(p.x, p.y, p.z) - mean;
+    spread += off * off.transpose();
+  }
+  const Eigen::Vector3d axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
+  double low = 0.0;
+  double high = 0.0;
+  for (const glm::vec3& p : points) {
+    const double at = axis.dot(Eigen::Vector3d(p.x, p.y, p.z) - mean);
+    low = std::min(low, at);
+    high = std::max(high, at);
+  }
+  return high - low;
+}
+
 /// Whether what was taken for breaks hardly goes through what was taken for walls: the faces of a struck flake are parallel, too, but run out
 /// into sharp edges.
 bool is_flake(const Mesh& mesh, const Segmentation& s) {
@@ -305,7 +327,8 @@ bool is_flake(const Mesh& mesh, const Segmentation& s) {
     walls.push_back(s.samples.points[i]);
     normals.push_back(s.normals[i]);
   }
-  if (walls.empty()) return false;
+  const bool told = s.samples.spacing < s.wall_thickness / kLeastAcross;
+  if (walls.empty() || !told || least_extent(s.samples.points) > kFlat * s.wall_thickness) return false;
   const PointIndex index(walls);
   std::size_t sidewards = 0;
   for (std::size_t i = 0; i < s.samples.size(); ++i) {
@@ -313,12 +336,10 @@ bool is_flake(const Mesh& mesh, const Segmentation& s) {
     const auto nearest = index.nearest(s.samples.points[i]);
     if (std::abs(glm::dot(s.normals[i], normals[nearest->first])) < kSidewards) ++sidewards;
   }
-  const auto broken = static_cast<double>(s.samples.size() - walls.size());
   const double each = surface_area(mesh) / static_cast<double>(s.samples.size());
   const double face = 0.5 * static_cast<double>(walls.size()) * each;
   const double side = 2.0 * std::sqrt(std::numbers::pi * face) * s.wall_thickness;
-  const double through = static_cast<double>(sidewards) * each;
-  return static_cast<double>(sidewards) < kLeastSidewards * broken && through < kLeastSides * side;
+  return static_cast<double>(sidewards) * each < kLeastSides * side;
 }
 
 /// Sets the samples, their normals and classes, and the wall thickness.

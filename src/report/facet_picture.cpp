@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/words.hpp"
 #include "report/canvas.hpp"
 #include "report/numbered_picture.hpp"
 
@@ -27,11 +28,13 @@ Image facet_picture(const mesh::Mesh& surface, const mesh::Segmentation& facets,
                                        [](const mesh::Facet& facet) { return facet.fracture; });
   NumberedPicture what;
   what.title = title;
-  what.subtitle = fmt::format("{} fracture facets in colour, original surface grey; {}", fractures,
-                              facets.wall_thickness > 0
-                                  ? fmt::format("wall {} thick", short_number(facets.wall_thickness))
-                                  : std::string("solid"));
   what.part_of_face = mesh::facet_of_faces(facets, mesh::sample_of_faces(facets, surface));
+  const bool rest = std::ranges::any_of(what.part_of_face, [](int facet) { return facet < 0; });
+  what.subtitle = fmt::format(
+      "{} in colour, original surface grey{}; {}",
+      counted(static_cast<std::size_t>(fractures), "fracture facet"), rest ? ", in no facet dark" : "",
+      facets.wall_thickness > 0 ? fmt::format("wall {} thick", short_number(facets.wall_thickness))
+                                : std::string("solid"));
   what.colour = [&facets](int facet) { return facet_colour(facet, facets); };
   return numbered_picture(surface, what);
 }
