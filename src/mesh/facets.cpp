@@ -52,7 +52,7 @@ constexpr double kOpen =
 constexpr double kWideOfSize = 0.25;  // of the piece: breaks of an open scan are narrower
 constexpr double kMostOfOpen = 0.2;   // of the piece: its breaks measure less across
 constexpr double kWideWalls = 2.5;    // wall thicknesses: breaks are narrower
-// Breaks of sherds go through the walls: the cosine between a break and the nearest wall is this at most
+// Breaks of sherds go through the walls, with a cosine between them and the nearest wall of this at most
 constexpr float kSidewards = 0.6F;
 // on at least this share of the area of a round sherd's side, whose border is the shortest.
 constexpr double kLeastSides = 0.29;

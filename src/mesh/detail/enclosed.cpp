@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <compare>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -37,11 +36,7 @@ bool leaves_oddly(const RayScene& scene, const glm::vec3& start, const glm::vec3
 /// Which parts are closed: every edge of theirs has an even number of faces.
 std::vector<char> closed_parts(const Mesh& mesh, const std::vector<std::uint32_t>& part_of_face,
                                std::size_t parts, std::uint32_t largest) {
-  struct Edge {
-    std::uint32_t low, high, part;
-    auto operator<=>(const Edge&) const = default;
-  };
-  std::vector<Edge> edges;
+  std::vector<std::array<std::uint32_t, 3>> edges;  // both ends, and the part
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     if (part_of_face[f] == largest) continue;
     for (int k = 0; k < 3; ++k) {
@@ -52,8 +47,8 @@ std::vector<char> closed_parts(const Mesh& mesh, const std::vector<std::uint32_t
   std::ranges::sort(edges);
   std::vector<char> closed(parts, 1);
   for (auto edge = edges.begin(); edge != edges.end();) {
-    const auto next = std::find_if(edge, edges.end(), [&](const Edge& other) { return other != *edge; });
-    if ((next - edge) % 2 == 1) closed[edge->part] = 0;
+    const auto next = std::find_if(edge, edges.end(), [&](const auto& other) { return other != *edge; });
+    if ((next - edge) % 2 == 1) closed[edge->back()] = 0;
     edge = next;
   }
   return closed;
