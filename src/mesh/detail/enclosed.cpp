@@ -62,6 +62,8 @@ Enclosed drop_enclosed(Mesh& mesh) {
   if (parts.size() < 2) return {};
   const auto largest = static_cast<std::uint32_t>(
       std::ranges::max_element(parts, {}, [](const Part& part) { return part.weight; }) - parts.begin());
+  const std::vector<char> closed = closed_parts(mesh, part_of_face, parts.size(), largest);
+  if (std::ranges::count(closed, 1) < 2) return {};  // the largest is not looked at
   std::vector<std::uint32_t> first_face(parts.size());
   Mesh around;
   around.vertices = mesh.vertices;
@@ -70,7 +72,6 @@ Enclosed drop_enclosed(Mesh& mesh) {
     if (part_of_face[f] == largest) around.faces.push_back(mesh.faces[f]);
   }
   const RayScene scene(around);
-  const std::vector<char> closed = closed_parts(mesh, part_of_face, parts.size(), largest);
   std::vector<char> inside(parts.size(), 0);
   parallel_for(parts.size(), 16, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
