@@ -10,6 +10,7 @@
 #include "match/pose_space.hpp"
 #include "mesh/bodies.hpp"
 #include "mesh/noise.hpp"
+#include "mesh/pores.hpp"
 #include "mesh/smooth.hpp"
 #include "mesh/surface.hpp"
 #include "mesh/table.hpp"
@@ -90,6 +91,12 @@ void doubt_several_bodies(Fragment& fragment) {
       fragment.path, shares.size(), list));
 }
 
+void tell_pores(Fragment& fragment, double share) {
+  fragment.warnings.push_back(
+      fmt::format("{}: {:.0f} % of it lies in pores, where nothing can touch it, and is left out",
+                  fragment.path, 100.0 * share));
+}
+
 void doubt_table(Fragment& fragment) {
   const std::optional<mesh::Table> table = mesh::find_table(fragment.surface);
   if (!table) return;
@@ -145,12 +152,16 @@ Fragment prepare(std::string path, mesh::Mesh scan, const Context& context) {
     fragment.noise_left = mesh::kNoiseLeft * fragment.noise;
     clock.lap("smooth");
   }
-  const mesh::Mesh& matched = noisy ? even : fragment.surface;
+  const std::optional<mesh::Open> open =
+      mesh::without_pores(noisy ? even : fragment.surface, fragment.diameter);
+  clock.lap("pores");
+  const mesh::Mesh& matched = open ? open->surface : noisy ? even : fragment.surface;
   fragment.coarse = matched.faces.size() > kCoarseFaces ? mesh::simplify(matched, kCoarseFaces) : matched;
   fragment.middle = view_centre(fragment.coarse);
   clock.lap("coarse");
   fragment.facets = mesh::segment(matched, fragment.diameter);
   fragment.sample_of_face = mesh::sample_of_faces(fragment.facets, fragment.coarse);
+  if (open) tell_pores(fragment, open->share);
   doubt_coarse_walls(fragment);
   doubt_shapeless_points(fragment, noisy);
   doubt_scans_from_one_side(fragment);

@@ -18,4 +18,10 @@ std::vector<glm::vec3> half_sphere_directions(std::size_t count) {
   return directions;
 }
 
+glm::mat3 frame_about(const glm::vec3& axis) {
+  const glm::vec3 across =
+      glm::normalize(glm::cross(axis, std::abs(axis.x) < 0.6F ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0)));
+  return {across, glm::cross(axis, across), axis};
+}
+
 }  // namespace rejoin::mesh::detail

@@ -17,13 +17,6 @@ constexpr std::size_t kDirections = 16;
 constexpr double kHidden = 0.15;  // of the rays from the front of a closed surface that is inside out
 constexpr double kSeen = 0.5;     // more of those from its back leave
 
-/// A frame with its z along a unit vector.
-glm::mat3 frame_about(const glm::vec3& axis) {
-  const glm::vec3 across =
-      glm::normalize(glm::cross(axis, std::abs(axis.x) < 0.6F ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0)));
-  return {across, glm::cross(axis, across), axis};
-}
-
 }  // namespace
 
 Outlook outlook(const Mesh& mesh) {

@@ -1,0 +1,134 @@
+#include "mesh/pores.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/components.hpp"
+#include "core/parallel.hpp"
+#include "mesh/detail/directions.hpp"
+#include "mesh/ray_scene.hpp"
+#include "mesh/samples.hpp"
+
+namespace rejoin::mesh {
+namespace {
+
+constexpr std::size_t kPlaces = 1000;
+constexpr std::size_t kDirections = 32;
+constexpr double kReach = 0.1;       // of the piece's size, in which directions end
+constexpr float kDeep = 0.4F;        // of the directions are free, at most, deep in a pore
+constexpr float kOpen = 0.7F;        // are free, at least, of what counts as open
+constexpr double kPorous = 0.1;      // of a porous piece's area is deep
+constexpr std::size_t kMouths = 12;  // of a porous piece
+constexpr std::size_t kMouth = 12;   // edges around one: less may be a dent, or noise
+
+/// How open places of a surface are.
+class Outside {
+ public:
+  Outside(const Mesh& mesh, double size)
+      : scene_(mesh),
+        directions_(detail::half_sphere_directions(kDirections)),
+        reach_(static_cast<float>(kReach * size)),
+        start_(0.3F * static_cast<float>(resolution(mesh))) {}
+
+  /// Share of the directions about a normal in which nothing is near.
+  float seen_from(const glm::vec3& place, const glm::vec3& normal) const {
+    const glm::mat3 frame = detail::frame_about(normal);
+    const glm::vec3 above = place + start_ * normal;  // over the noise of a scan
+    const auto free = std::ranges::count_if(directions_, [&](const glm::vec3& direction) {
+      return !scene_.first_hit(above, frame * direction, 0.0F, reach_);
+    });
+    return static_cast<float>(free) / static_cast<float>(kDirections);
+  }
+
+ private:
+  RayScene scene_;
+  std::vector<glm::vec3> directions_;
+  float reach_;
+  float start_;
+};
+
+double deep_share(const Mesh& mesh, const Outside& outside) {
+  const Samples samples = sample_surface(mesh, kPlaces);
+  std::vector<char> deep(samples.size());
+  parallel_for(samples.size(), 16, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      deep[i] = outside.seen_from(samples.points[i], samples.normals[i]) < kDeep ? 1 : 0;
+  });
+  return static_cast<double>(std::ranges::count(deep, 1)) / static_cast<double>(samples.size());
+}
+
+/// Of every face, evened out over the faces around its corners.
+std::vector<float> openness(const Mesh& mesh, const Outside& outside) {
+  const std::vector<glm::vec3> normals = face_normals(mesh);
+  std::vector<float> of_face(mesh.faces.size());
+  parallel_for(of_face.size(), 256, [&](std::size_t first, std::size_t last) {
+    for (std::size_t f = first; f < last; ++f) {
+      const auto& face = mesh.faces[f];
+      const glm::vec3 middle =
+          (mesh.vertices[face[0]] + mesh.vertices[face[1]] + mesh.vertices[face[2]]) / 3.0F;
+      of_face[f] = outside.seen_from(middle, normals[f]);
+    }
+  });
+  std::vector<float> sums(mesh.vertices.size(), 0.0F);
+  std::vector<std::uint32_t> counts(mesh.vertices.size(), 0);
+  for (std::size_t f = 0; f < of_face.size(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      sums[mesh.faces[f][k]] += of_face[f];
+      ++counts[mesh.faces[f][k]];
+    }
+  }
+  for (std::size_t f = 0; f < of_face.size(); ++f) {
+    float sum = 0.0F;
+    for (int k = 0; k < 3; ++k) sum += sums[mesh.faces[f][k]] / static_cast<float>(counts[mesh.faces[f][k]]);
+    of_face[f] = sum / 3.0F;
+  }
+  return of_face;
+}
+
+/// Borders of what is deep.
+std::size_t mouths(const Mesh& mesh, const std::vector<float>& open) {
+  struct Side {
+    std::uint32_t low, high;
+    bool deep;
+    auto operator<=>(const Side&) const = default;
+  };
+  std::vector<Side> sides;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax({mesh.faces[f][k], mesh.faces[f][(k + 1) % 3]});
+      sides.push_back({low, high, open[f] < kDeep});
+    }
+  }
+  std::ranges::sort(sides);
+  Components borders(mesh.vertices.size());
+  std::vector<std::uint32_t> ends;
+  for (std::size_t k = 0; k + 1 < sides.size(); ++k) {
+    const Side& a = sides[k];
+    const Side& b = sides[k + 1];
+    if (a.low != b.low || a.high != b.high || a.deep == b.deep) continue;
+    borders.unite(a.low, a.high);
+    ends.push_back(a.low);
+  }
+  std::vector<std::size_t> edges(mesh.vertices.size(), 0);
+  for (const std::uint32_t end : ends) ++edges[borders.of(end)];
+  return static_cast<std::size_t>(std::ranges::count_if(edges, [](std::size_t n) { return n >= kMouth; }));
+}
+
+}  // namespace
+
+std::optional<Open> without_pores(const Mesh& mesh, double size) {
+  const Outside outside(mesh, size);
+  if (deep_share(mesh, outside) < kPorous) return std::nullopt;
+  const std::vector<float> open = openness(mesh, outside);
+  if (mouths(mesh, open) < kMouths) return std::nullopt;
+  std::vector<std::uint32_t> kept;
+  for (std::uint32_t f = 0; f < open.size(); ++f)
+    if (open[f] >= kOpen) kept.push_back(f);
+  Open left{.surface = submesh(mesh, kept)};
+  left.share = 1.0 - surface_area(left.surface) / surface_area(mesh);
+  return left;
+}
+
+}  // namespace rejoin::mesh
