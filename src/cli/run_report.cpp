@@ -296,9 +296,11 @@ std::string verdict_of(const store::Pair& pair) {
   return pair.stage == store::Stage::Failed ? "failed: " + pair.error : pair.verdict;
 }
 
-void add_pairs(report::RunReport& report, const store::Run& run, const Numbers& numbers, std::size_t listed) {
-  std::size_t rank = 0;
-  for (const store::Pair& stored : run.pairs()) {
+/// Without what only those need that are listed.
+/// \return the run's pairs in the report's order
+std::vector<store::Pair> add_pairs(report::RunReport& report, const store::Run& run, const Numbers& numbers) {
+  std::vector<store::Pair> added;
+  for (store::Pair& stored : run.pairs()) {
     if (stored.stage == store::Stage::Apart) {
       ++report.apart_pairs;
       continue;
@@ -309,12 +311,22 @@ void add_pairs(report::RunReport& report, const store::Run& run, const Numbers& 
     pair.score = stored.score;
     pair.verdict = verdict_of(stored);
     if (stored.stage == store::Stage::Failed) pair.comparison = report::Comparison::Failed;
-    if (rank++ < listed) {
-      const std::vector<store::Candidate> candidates = run.candidates(stored);
-      pair.figures = figures(stored, candidates);
-      if (!candidates.empty()) pair.pose = candidates.front().pose;
-    }
     report.pairs.push_back(std::move(pair));
+    added.push_back(std::move(stored));
+  }
+  return added;
+}
+
+/// Figures and pose of the listed pairs; figures that the assembly gave stay.
+/// \param stored  of the report's first pairs
+void fill_listed(report::RunReport& report, const store::Run& run, const std::vector<store::Pair>& stored,
+                 std::size_t listed) {
+  for (const std::size_t k : report::listed_pairs(report, listed)) {
+    if (k >= stored.size()) continue;
+    report::ReportPair& pair = report.pairs[k];
+    const std::vector<store::Candidate> candidates = run.candidates(stored[k]);
+    if (pair.figures.empty()) pair.figures = figures(stored[k], candidates);
+    if (!candidates.empty()) pair.pose = candidates.front().pose;
   }
 }
 
@@ -405,7 +417,7 @@ report::RunReport read_run(const std::filesystem::path& run, std::size_t listed,
     if (copy != copies.end()) fragment.reason = store::reason_of_copy(copy->second);
     report.fragments.push_back(std::move(fragment));
   }
-  add_pairs(report, database, numbers, listed);
+  const std::vector<store::Pair> pairs = add_pairs(report, database, numbers);
   add_parameters(report, database, folder);
   const std::filesystem::path assembly = folder / kAssemblyName;
   const store::Remains remains = store::remains(database);
@@ -419,6 +431,7 @@ report::RunReport read_run(const std::filesystem::path& run, std::size_t listed,
       console.warning(report.warnings.back());
     }
   }
+  fill_listed(report, database, pairs, listed);
   const std::string missing = store::told(remains);
   if (!missing.empty()) report.warnings.push_back(missing);
   add_reasons(report, not_placed, remains);

@@ -32,25 +32,6 @@ void require_valid(const RunReport& report) {
   }
 }
 
-/// The pairs that are listed, best first (equal scores as given): those that the assembly uses, each fragment's best one, and the best of
-/// the others.
-std::vector<std::size_t> listed_pairs(const RunReport& report, std::size_t count) {
-  std::vector<std::size_t> order(report.pairs.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return report.pairs[a].score > report.pairs[b].score;
-  });
-  std::vector<bool> has_best(report.fragments.size(), false);
-  std::size_t others = 0;
-  std::erase_if(order, [&](std::size_t k) {
-    const ReportPair& pair = report.pairs[k];
-    const bool best = pair.comparison != Comparison::Failed && (!has_best[pair.a] || !has_best[pair.b]);
-    if (best) has_best[pair.a] = has_best[pair.b] = true;
-    return !pair.used && others++ >= count && !best;
-  });
-  return order;
-}
-
 double median_diameter(const std::vector<ReportFragment>& fragments) {
   std::vector<double> diameters;
   for (const ReportFragment& fragment : fragments) {
@@ -179,6 +160,23 @@ std::string page(const RunReport& report, const detail::PageFiles& files, const 
 }
 
 }  // namespace
+
+std::vector<std::size_t> listed_pairs(const RunReport& report, std::size_t count) {
+  std::vector<std::size_t> order(report.pairs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return report.pairs[a].score > report.pairs[b].score;
+  });
+  std::vector<bool> has_best(report.fragments.size(), false);
+  std::size_t others = 0;
+  std::erase_if(order, [&](std::size_t k) {
+    const ReportPair& pair = report.pairs[k];
+    const bool best = pair.comparison != Comparison::Failed && (!has_best[pair.a] || !has_best[pair.b]);
+    if (best) has_best[pair.a] = has_best[pair.b] = true;
+    return !pair.used && others++ >= count && !best;
+  });
+  return order;
+}
 
 bool write_run_report(const RunReport& report, const std::filesystem::path& path, const Context& context,
                       const RunReportOptions& options) {

@@ -84,6 +84,10 @@ struct RunReport {
   ReportConstraints constraints = {};
 };
 
+/// The pairs that are listed, best first (equal scores as given): those that the assembly uses, each fragment's best one, and the best
+/// `count` of the others.
+std::vector<std::size_t> listed_pairs(const RunReport& report, std::size_t count);
+
 struct RunReportOptions {
   std::size_t geometry_bytes = 9'000'000;  ///< for all fragments, in the page
   std::size_t picture_bytes = 14'000'000;  ///< for all pictures of joins, in the page

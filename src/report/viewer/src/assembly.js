@@ -131,6 +131,7 @@ export class Assembly {
       return row;
     });
     replace(this.list, rows);
+    this.#fillSwatches();
     this.#mark();
   }
 
@@ -186,7 +187,9 @@ export class Assembly {
       button.setAttribute('aria-pressed', this.chosen.has(index));
     }
     this.stage?.mark(this.chosen);
+    const focused = [...this.detail.querySelectorAll('button')].indexOf(document.activeElement);
     replace(this.detail, this.#detail());
+    if (focused >= 0) this.detail.querySelectorAll('button')[focused]?.focus();
   }
 
   #detail() {
@@ -216,18 +219,28 @@ export class Assembly {
     );
   }
 
-  #colour() {
-    const mode = this.mode.value;
-    const {fragments, gap_scale: scale} = this.data;
-    const ofPiece = {
+  /** The colour of whole pieces, where they have one. */
+  #ofPiece() {
+    const {fragments} = this.data;
+    return {
       fragment: (index) => fragments[index].colour,
       object: (index) => fragments[index].object_colour ?? NONE,
       confidence: (index) => evenColour(fragments[index].confidence),
-    }[mode];
+    }[this.mode.value];
+  }
+
+  #fillSwatches() {
+    const ofPiece = this.#ofPiece();
+    for (const [index, {button}] of this.rows) button.querySelector('.swatch').style.background = ofPiece ? css(ofPiece(index)) : 'transparent';
+  }
+
+  #colour() {
+    const mode = this.mode.value;
+    const ofPiece = this.#ofPiece();
     if (ofPiece) this.stage?.colourPieces(ofPiece);
     else this.stage?.colourVertices(mode === 'gap' ? (piece, k) => GAP_TABLE[piece.gaps[k]] : (piece, k) => (piece.scan ? [0, 1, 2].map((c) => piece.scan[4 * k + c] / 255) : NONE));
-    for (const [index, {button}] of this.rows) button.querySelector('.swatch').style.background = ofPiece ? css(ofPiece(index)) : 'transparent';
-    replace(this.legend, this.#legend(mode, scale));
+    this.#fillSwatches();
+    replace(this.legend, this.#legend(mode, this.data.gap_scale));
   }
 
   #legend(mode, scale) {

@@ -164,7 +164,18 @@ export class Matrix {
     else return;
     event.preventDefault();
     this.draw();
+    this.#reveal();
     this.#tell();
+  }
+
+  /** Scrolls to the cursor's cell. */
+  #reveal() {
+    const [top, left] = this.cursor.map((at) => this.margin + at * this.cell);
+    const box = this.canvas.parentElement;
+    box.scrollLeft = Math.min(Math.max(box.scrollLeft, left + 2 * this.cell - box.clientWidth), Math.max(0, left - this.cell));
+    const y = this.canvas.getBoundingClientRect().top + top;
+    if (y < 0) window.scrollBy(0, y - 2 * this.cell);
+    else if (y + this.cell > window.innerHeight) window.scrollBy(0, y + 2 * this.cell - window.innerHeight);
   }
 
   #chosen() {

@@ -241,6 +241,34 @@ test('a phone shows names whole, and their commas beside them', () =>
     {width: 390, height: 844},
   ));
 
+test('a button of a piece keeps the focus', () =>
+  on('hostile', async (page) => {
+    await page.locator('.fragments .pick').first().click();
+    const hide = page.locator('.card .buttons button').first();
+    await hide.focus();
+    await page.keyboard.press('Enter');
+    assert.equal(await page.evaluate(() => document.activeElement.textContent), 'Show');
+    await page.keyboard.press('Enter');
+    assert.equal(await page.evaluate(() => document.activeElement.textContent), 'Hide');
+  }));
+
+test('the matrix of a phone follows the cursor', () =>
+  on(
+    'sixty',
+    async (page) => {
+      await page.focus('#matrix canvas');
+      const scrolled = () => page.locator('#matrix .matrix').evaluate((box) => [box.scrollLeft, box.scrollWidth - box.clientWidth]);
+      assert.ok((await scrolled())[1] > 0);
+      for (let k = 0; k < 60; ++k) await page.keyboard.press('ArrowRight');
+      const [at, most] = await scrolled();
+      assert.ok(at > most - 2, `${at} of ${most}`);
+      for (let k = 0; k < 60; ++k) await page.keyboard.press('ArrowDown');
+      const below = await page.locator('#matrix canvas').evaluate((canvas) => canvas.getBoundingClientRect().bottom - window.innerHeight);
+      assert.ok(below < 20, `${below}`);
+    },
+    {width: 390, height: 300},
+  ));
+
 test('the matrix of a phone names its rows and columns', () =>
   on(
     'hostile',
@@ -316,4 +344,6 @@ test('sixty fragments with pictures stay under 30 MB and can be chosen', () =>
     await page.fill('.filter', 'ball 59');
     await page.click('.fragments .pick');
     assert.match(await page.textContent('#chosen'), /ball 59/);
+    const colour = await page.locator('.fragments .swatch').first().evaluate((swatch) => getComputedStyle(swatch).backgroundColor);
+    assert.doesNotMatch(colour, /rgba\(0, 0, 0, 0\)/);
   }));
