@@ -11,6 +11,8 @@
 #include <set>
 #include <utility>
 
+#include "batch/inputs.hpp"
+#include "batch/matcher_source.hpp"
 #include "batch/painted.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -32,8 +34,33 @@ void require_body(const mesh::Mesh& scan, const std::string& path) {
                    "give the scan of a whole fragment");
 }
 
+/// Named after what made it, too: other sources may lay another surface through the same scan.
 fs::path kept_file(const store::Fragment& fragment, const fs::path& cache) {
-  return cache / (fragment.hash + ".drc");
+  return cache / fmt::format("{}-{}.drc", fragment.hash, kMatcherSource);
+}
+
+/// Surfaces of the scan that other versions or builds made.
+std::vector<fs::path> kept_by_others(const store::Fragment& fragment, const fs::path& cache) {
+  std::vector<fs::path> files;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(cache, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(fragment.hash) && name.ends_with(".drc") &&
+        entry.path() != kept_file(fragment, cache))
+      files.push_back(entry.path());
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+std::optional<mesh::Mesh> read_if_whole(const fs::path& file) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) return std::nullopt;
+  try {
+    return mesh::load(file).mesh;
+  } catch (const Error&) {
+    return std::nullopt;  // cut short by a power failure: made again
+  }
 }
 
 /// \throws StoreError the folder refuses the file: our disk is at fault, not the scan
@@ -45,6 +72,26 @@ void keep(const fs::path& kept, const mesh::Mesh& surface) {
     throw StoreError(kept.string(), "a prepared scan cannot be kept",
                      fmt::format("free some space and run the command again ({})", error.what()));
   }
+}
+
+/// \throws InputError the scan is no longer what the run knows, or cannot be used
+mesh::Mesh read_and_keep(const store::Fragment& fragment, const fs::path& cache,
+                         std::vector<std::string>& warnings) {
+  mesh::Loaded loaded = mesh::load(fragment.path);
+  if (content_hash(fragment.path) != fragment.hash) {
+    throw InputError(fragment.path, "has another content than rejoin batch found, of which nothing is kept",
+                     "run rejoin batch again");
+  }
+  warnings = std::move(loaded.warnings);
+  require_body(loaded.mesh, fragment.path);
+  keep(kept_file(fragment, cache), match::surface_of(fragment.path, std::move(loaded.mesh)));
+  std::optional<mesh::Mesh> surface = read_if_whole(kept_file(fragment, cache));
+  if (!surface)
+    throw InputError(fragment.path, "has no surface left where it is kept to a millionth of its size",
+                     "remove vertices far from the rest");
+  std::error_code ignored;
+  for (const fs::path& file : kept_by_others(fragment, cache)) fs::remove(file, ignored);
+  return std::move(*surface);
 }
 
 struct Outcome {
@@ -80,14 +127,13 @@ Outcome prepare_one(const store::Fragment& fragment, const fs::path& cache, cons
 }  // namespace
 
 std::optional<mesh::Mesh> kept_surface(const store::Fragment& fragment, const fs::path& cache) {
-  const fs::path kept = kept_file(fragment, cache);
-  std::error_code ignored;
-  if (!fs::is_regular_file(kept, ignored)) return std::nullopt;
-  try {
-    return mesh::load(kept).mesh;
-  } catch (const Error&) {
-    return std::nullopt;  // cut short by a power failure: made again
+  std::optional<mesh::Mesh> kept = read_if_whole(kept_file(fragment, cache));
+  if (kept) return kept;
+  for (const fs::path& file : kept_by_others(fragment, cache)) {
+    kept = read_if_whole(file);
+    if (kept) break;
   }
+  return kept;
 }
 
 ChangedScans kept_ones(const ChangedScans& scans, const std::vector<store::Fragment>& fragments,
@@ -95,7 +141,8 @@ ChangedScans kept_ones(const ChangedScans& scans, const std::vector<store::Fragm
   std::set<std::string> kept;
   std::error_code ignored;
   for (const store::Fragment& fragment : fragments) {
-    if (fs::is_regular_file(kept_file(fragment, cache), ignored)) kept.insert(fragment.name);
+    if (fs::is_regular_file(kept_file(fragment, cache), ignored) || !kept_by_others(fragment, cache).empty())
+      kept.insert(fragment.name);
   }
   ChangedScans result;
   const auto is_kept = [&kept](const std::string& name) { return kept.count(name) != 0; };
@@ -129,23 +176,10 @@ void gather_surfaces(const std::vector<fs::path>& caches, const fs::path& cache)
 
 match::Fragment load_prepared(const store::Fragment& fragment, const fs::path& cache,
                               const Context& context) {
-  const fs::path kept = kept_file(fragment, cache);
-  std::optional<mesh::Mesh> surface = kept_surface(fragment, cache);
   std::vector<std::string> warnings;
-  if (!surface) {
-    mesh::Loaded loaded = mesh::load(fragment.path);
-    if (content_hash(fragment.path) != fragment.hash) {
-      throw InputError(fragment.path, "has another content than rejoin batch found, of which nothing is kept",
-                       "run rejoin batch again");
-    }
-    warnings = std::move(loaded.warnings);
-    require_body(loaded.mesh, fragment.path);
-    keep(kept, match::surface_of(fragment.path, std::move(loaded.mesh)));
-    surface = kept_surface(fragment, cache);
-    if (!surface)
-      throw InputError(fragment.path, "has no surface left where it is kept to a millionth of its size",
-                       "remove vertices far from the rest");
-  }
+  std::optional<mesh::Mesh> surface = read_if_whole(kept_file(fragment, cache));
+  if (!surface && hash_if_readable(fragment.path) != fragment.hash) surface = kept_surface(fragment, cache);
+  if (!surface) surface = read_and_keep(fragment, cache, warnings);
   match::Fragment prepared = match::prepare(fragment.path, std::move(*surface), context);
   prepared.warnings.insert(prepared.warnings.begin(), warnings.begin(), warnings.end());
   if (!fragment.facets.empty()) use_kept_paint(prepared, fragment, cache);

@@ -22,6 +22,8 @@ const char* told(store::Run::Change change) {
       return "is painted otherwise than before; its pairs are done again";
     case store::Run::Change::Gone:
       return "is gone; its pairs are dropped";
+    case store::Run::Change::Unreadable:
+      return "cannot be read now; what is known of it stays";
   }
   return "";
 }
@@ -118,7 +120,8 @@ class JsonListener final : public WarningListener {
   void on_start(const store::Run::Forgotten& forgotten, const batch::Progress& progress) override {
     WarningListener::on_start(forgotten, progress);
     ordered_json names = ordered_json::array();
-    for (const auto& [name, change] : forgotten.fragments) names.push_back(name);
+    for (const auto& [name, change] : forgotten.fragments)
+      if (change != store::Run::Change::Unreadable) names.push_back(name);
     ordered_json json = {
         {"event", "start"},
         {"forgotten",

@@ -65,6 +65,7 @@ struct Whole {
 /// One look at all runs, before anything is written.
 Whole survey(const std::vector<fs::path>& runs) {
   Whole whole;
+  std::map<std::string, std::size_t> from;  // the first run that has the fragment
   for (const fs::path& folder : runs) {
     const Run run = Run::open(folder);
     whole.shards.push_back(run.shard());
@@ -77,9 +78,15 @@ Whole survey(const std::vector<fs::path>& runs) {
     }
     for (const Fragment& fragment : run.fragments()) {
       Fragment& known = whole.fragments.try_emplace(fragment.name, fragment).first->second;
+      from.try_emplace(fragment.name, static_cast<std::size_t>(&folder - runs.data()));
       if (known.hash != fragment.hash) {
+        const std::string other = runs[from.at(fragment.name)].string();
+        if (known.hash == kUnreadable || fragment.hash == kUnreadable) {
+          throw StoreError(known.hash == kUnreadable ? other : folder.string(),
+                           fmt::format("could not read {}", fragment.name), "run its shard again");
+        }
         throw StoreError(folder.string(),
-                         fmt::format("knows another content of {} than the runs before it", fragment.name),
+                         fmt::format("knows another content of {} than {}", fragment.name, other),
                          "run the shards again that have the older file");
       }
       if (known.facets != fragment.facets) {

@@ -159,6 +159,11 @@ std::map<std::string, Run::Change> forget_changed(SQLite::Database& database,
   std::map<std::string, Run::Change> changes;
   for (const Fragment& known : detail::all_fragments(database)) {
     const auto same = wanted.find(known.name);
+    if (same != wanted.end() && same->second.hash == kUnreadable && known.hash != kUnreadable) {
+      changes[known.name] = Run::Change::Unreadable;  // for a moment, perhaps: as a disk that is not mounted
+      wanted.erase(same);
+      continue;
+    }
     if (same == wanted.end() || same->second.hash != known.hash || same->second.facets != known.facets) {
       remove_fragment(database, known.id);
       changes[known.name] = same == wanted.end()              ? Run::Change::Gone

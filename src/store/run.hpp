@@ -65,12 +65,13 @@ class Run {
   std::vector<Candidate> candidates(std::int64_t a, std::int64_t b) const;
 
   /// Why begin() forgets a fragment.
-  enum class Change { Content, Paint, Gone };
+  enum class Change { Content, Paint, Gone, Unreadable };
 
   /// What begin() had to forget.
   struct Forgotten {
-    bool parameters = false;                  ///< all pairs, because they were made with other parameters
-    std::map<std::string, Change> fragments;  ///< names of those that went with their pairs
+    bool parameters = false;  ///< all pairs, because they were made with other parameters
+    std::map<std::string, Change>
+        fragments;               ///< names of those that went with their pairs; of unreadable ones they stay
     std::size_t laid_pairs = 0;  ///< pairs of other fragments that the user laid otherwise than before
   };
 

@@ -187,6 +187,18 @@ TEST_F(RunTest, ChangedFragmentLosesItsPairsAlone) {
   EXPECT_EQ(run.fragments()[2].path, "elsewhere/c.ply");
 }
 
+TEST_F(RunTest, FragmentThatCannotBeReadKeepsItsPairs) {
+  make_run();
+  store::Run run = store::Run::write(folder_);
+  run.save(pair_of(run.fragments(), 0, 2), {});
+  std::vector<Fragment> changed = three_;
+  changed[0].hash = kUnreadable;
+  EXPECT_EQ(run.begin(kParameters, changed).fragments, (Changes{{"b.ply", store::Run::Change::Unreadable}}));
+  EXPECT_EQ(run.pairs().size(), 1U);
+  EXPECT_TRUE(run.begin(kParameters, three_).fragments.empty());
+  EXPECT_EQ(run.pairs().size(), 1U);
+}
+
 TEST_F(RunTest, FragmentThatIsGoneIsForgotten) {
   make_run();
   store::Run run = store::Run::write(folder_);
