@@ -1,6 +1,9 @@
 /// Parts of a scan beside the piece and inside it: which are left out.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
+
 #include "mesh/load.hpp"
 #include "mesh/save.hpp"
 #include "shapes.hpp"
@@ -67,6 +70,18 @@ TEST(Clean, DropsCavitiesAndKeepsOpenPatchesInside) {
                                     std::to_string(closed + 6) + " faces, in 3 parts inside it"),
             std::string::npos)
       << loaded.warnings[0];
+}
+
+// As a handle that was modelled apart from its vessel, whichever end comes first in the file.
+TEST(Clean, KeepsPartsThatEndInside) {
+  Mesh scan = test::icosphere(50, 3);
+  const auto first = static_cast<std::uint32_t>(scan.vertices.size());
+  const Mesh handle = test::box({80, 10, 10}, 8);
+  for (const glm::vec3& v : handle.vertices) scan.vertices.push_back(v + glm::vec3(60, 0, 0));
+  for (const glm::uvec3& f : handle.faces) scan.faces.push_back(first + f);
+  EXPECT_EQ(through_ply(scan).mesh.faces.size(), scan.faces.size());
+  std::ranges::reverse(scan.faces);
+  EXPECT_EQ(through_ply(scan).mesh.faces.size(), scan.faces.size());
 }
 
 TEST(Clean, KeepsPatchesNearThePieceAndLargePartsAnywhere) {

@@ -20,6 +20,8 @@ const std::array<glm::vec3, 6> kDirections{
     glm::normalize(glm::vec3(0.29F, -0.87F, 0.43F)),  glm::normalize(glm::vec3(-0.37F, -0.31F, 0.89F)),
     glm::normalize(glm::vec3(0.47F, -0.23F, -0.79F)), glm::normalize(glm::vec3(-0.59F, 0.67F, 0.33F))};
 
+constexpr std::size_t kPlaces = 64;
+
 bool leaves_oddly(const RayScene& scene, const glm::vec3& start, const glm::vec3& direction) {
   constexpr int kMostCrossings = 1000;
   int crossings = 0;
@@ -31,6 +33,18 @@ bool leaves_oddly(const RayScene& scene, const glm::vec3& start, const glm::vec3
     from = std::nextafter(hit->distance * (1.0F + 1e-6F), std::numeric_limits<float>::max());
   }
   return crossings % 2 == 1;
+}
+
+/// Of a part, by places all over it: a handle that was modelled apart from its vessel ends inside.
+bool lies_inside(const RayScene& scene, const Mesh& mesh, const std::vector<std::uint32_t>& faces) {
+  const std::size_t step = std::max<std::size_t>(1, faces.size() / kPlaces);
+  for (std::size_t k = 0; k < faces.size(); k += step) {
+    const glm::vec3& start = mesh.vertices[mesh.faces[faces[k]].x];
+    if (!std::ranges::all_of(
+            kDirections, [&](const glm::vec3& direction) { return leaves_oddly(scene, start, direction); }))
+      return false;
+  }
+  return true;
 }
 
 /// Which parts are closed: every edge of theirs has an even number of faces.
@@ -64,21 +78,14 @@ Enclosed drop_enclosed(Mesh& mesh) {
       std::ranges::max_element(parts, {}, [](const Part& part) { return part.weight; }) - parts.begin());
   const std::vector<char> closed = closed_parts(mesh, part_of_face, parts.size(), largest);
   if (std::ranges::count(closed, 1) < 2) return {};  // the largest is not looked at
-  std::vector<std::uint32_t> first_face(parts.size());
-  Mesh around;
-  around.vertices = mesh.vertices;
-  for (std::size_t f = mesh.faces.size(); f-- > 0;) {
-    first_face[part_of_face[f]] = static_cast<std::uint32_t>(f);
-    if (part_of_face[f] == largest) around.faces.push_back(mesh.faces[f]);
-  }
+  const std::vector<std::vector<std::uint32_t>> faces = members_of_parts(part_of_face, parts.size());
+  const Mesh around = submesh(mesh, faces[largest]);
   const RayScene scene(around);
   std::vector<char> inside(parts.size(), 0);
   parallel_for(parts.size(), 16, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
       if (k == largest || closed[k] == 0) continue;
-      const glm::vec3& start = mesh.vertices[mesh.faces[first_face[k]].x];
-      inside[k] = std::ranges::all_of(
-          kDirections, [&](const glm::vec3& direction) { return leaves_oddly(scene, start, direction); });
+      inside[k] = lies_inside(scene, mesh, faces[k]) ? 1 : 0;
     }
   });
   Enclosed dropped;

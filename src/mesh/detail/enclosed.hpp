@@ -13,7 +13,7 @@ struct Enclosed {
 };
 
 /// Drops closed parts of the surface (faces that share vertices) that lie inside the largest: cavities, which no other piece can touch.  A part
-/// does so if every one of several rays from it crosses the largest part an odd number of times.  Open parts stay, as patches of
+/// does so if every one of several rays from places all over it crosses the largest part an odd number of times.  Open parts stay, as patches of
 /// a vessel's inside that a scanner has seen are.  Call drop_unused_vertices() after it.
 /// \pre no face is degenerate
 Enclosed drop_enclosed(Mesh& mesh);
