@@ -318,6 +318,7 @@ Extraction extract(const std::string& path, const ExtractOptions& options) {
     Outline outline;
     outline.colour = border_colours(polygon, image);
     outline.points = std::move(polygon);
+    outline.of_pixels = true;
     if (hard) outline.raster = kHardRaster;
     result.pieces.push_back(std::move(outline));
   }

@@ -19,7 +19,8 @@ namespace {
 
 /// Poses are fitted on the border at this scale: its noise is gone, its shape is not.
 constexpr std::size_t kFitScale = 1;
-constexpr int kGridCells = 96;
+/// Of the tolerance: what lies deeper is told by depths that are accurate to about a cell.
+constexpr double kCell = 0.5;
 /// Borders may be off each other by this many steps of the fit's scale.
 constexpr double kToleranceSteps = 3.0;
 /// Turning beyond this many times the usual is cut off.
@@ -62,7 +63,7 @@ struct JoinFitter::State {
   std::vector<std::vector<ScaleSignal>> scales;  ///< of each border
   std::vector<double> perimeters;                ///< the same
   std::vector<double> areas;                     ///< of each piece
-  std::vector<double> rasters;                   ///< the same
+  std::vector<detail::Pixels> pixels;            ///< the same
   std::vector<detail::DistanceGrid> grids;
   std::vector<double> limits;  ///< of each scale
   double step = 0.0;
@@ -72,7 +73,7 @@ struct JoinFitter::State {
     return {&scales[number],
             &limits,
             {&scales[number][kFitScale], perimeters[number]},
-            rasters[borders[number].piece]};
+            pixels[borders[number].piece]};
   }
 
   void find_limits() {
@@ -81,7 +82,7 @@ struct JoinFitter::State {
       limits.push_back(kTurningLimit * detail::usual_turning(outer, k));
   }
 
-  /// About the area that lies deeper than the tolerance in both; the grids' cells are too coarse for what is less deep.
+  /// About the area that lies deeper than the tolerance in both; depths are too rough for what is less deep.
   double deep_overlap(std::size_t a, std::size_t b, const Planar& pose) const {
     const bool a_smaller = areas[a] < areas[b];
     const detail::DistanceGrid& moved = grids[a_smaller ? a : b];
@@ -93,7 +94,7 @@ struct JoinFitter::State {
       if (depth <= tolerance) continue;
       if (std::min(depth, moved.depth(p)) > tolerance) deep += 1.0;
     }
-    return deep * moved.cell() * moved.cell();
+    return deep * moved.area_of_place();
   }
 };
 
@@ -113,7 +114,7 @@ JoinFitter::JoinFitter(const std::vector<Piece>& pieces, const FitOptions& optio
   s.scales.resize(s.borders.size());
   s.perimeters.resize(s.borders.size());
   s.areas.resize(count);
-  for (const Piece& piece : pieces) s.rasters.push_back(piece.outline.raster);
+  for (const Piece& piece : pieces) s.pixels.push_back({piece.outline.of_pixels, piece.outline.raster});
   std::vector<std::optional<detail::DistanceGrid>> grids(count);
   const int scales = std::max(options.scales, static_cast<int>(kFitScale) + 1);
   parallel_for(s.borders.size(), 1, [&](std::size_t first, std::size_t last) {
@@ -124,7 +125,7 @@ JoinFitter::JoinFitter(const std::vector<Piece>& pieces, const FitOptions& optio
       s.perimeters[i] = perimeter(border);
       if (hole > 0) continue;
       s.areas[piece] = signed_area(border);
-      grids[piece].emplace(pieces[piece].outline, kGridCells);
+      grids[piece].emplace(pieces[piece].outline, kCell * s.tolerance);
     }
   });
   s.grids.reserve(count);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/random.hpp"
+#include "outline/detail/distance_grid.hpp"
 #include "outline/detail/evidence.hpp"
 #include "shapes.hpp"
 
@@ -36,8 +37,23 @@ TEST(JoinFit, ADistanceThatVariesAlongTheBoundarySpeaksAgainstIt) {
   EXPECT_LT(evidence_with_wave(4.0), 0.2 * exact);  // it is 0.18, and 0.41 without that distance
 }
 
+// Overlap is told to a share of the tolerance also in large scans.
+TEST(DistanceGrid, IsAsFineAsAskedForHoweverLargeThePiece) {
+  for (const double size : {300.0, 1500.0}) {
+    const Outline square{{{0, 0}, {size, 0}, {size, size}, {0, size}}, {}, {}};
+    const detail::DistanceGrid grid(square, 4.0);
+    for (const double depth : {1.0, 5.5, 20.0, 77.0}) {
+      EXPECT_NEAR(grid.depth({depth, 0.4 * size}), depth, 4.0) << size;
+      EXPECT_NEAR(grid.depth({0.7 * size, size - depth}), depth, 4.0) << size;
+    }
+    const auto places = static_cast<double>(grid.inside().size());
+    EXPECT_NEAR(places * grid.area_of_place(), size * size, 0.03 * size * size);
+    EXPECT_LT(places, 10000.0);  // so that looking at all of them costs the same
+  }
+}
+
 /// Evidence of a border of these turns along itself.
-double agreement_of(const std::vector<float>& turning) {
+double agreement_of(const std::vector<float>& turning, const detail::Pixels& pixels = {}) {
   const std::size_t count = turning.size();
   ScaleSignal a{1.0, std::vector<glm::dvec2>(count), turning, {}};
   for (std::size_t i = 0; i < count; ++i) a.places.push_back(static_cast<double>(i));
@@ -50,8 +66,8 @@ double agreement_of(const std::vector<float>& turning) {
   std::vector<detail::Contact> contacts;
   for (std::size_t i = 0; i < count; ++i)
     contacts.push_back({static_cast<std::int32_t>(i), static_cast<double>(count - 1 - i), 0.0, true});
-  return detail::agreement({&scales_a, &limits, {&scales_a[0], perimeter}},
-                           {&scales_b, &limits, {&scales_b[0], perimeter}}, contacts);
+  return detail::agreement({&scales_a, &limits, {&scales_a[0], perimeter}, pixels},
+                           {&scales_b, &limits, {&scales_b[0], perimeter}, pixels}, contacts);
 }
 
 TEST(Evidence, OneBendTellsLittleHoweverLongTheStraightLinesBesideIt) {
@@ -63,6 +79,15 @@ TEST(Evidence, OneBendTellsLittleHoweverLongTheStraightLinesBesideIt) {
   // One sample of 200 carries the bend, and about all carry a rough border.
   EXPECT_LT(agreement_of(bend), 0.05 * agreement_of(rough));
   EXPECT_GT(agreement_of(rough), 100.0);
+}
+
+// Pixels bend a straight border by as much; numbers in a file do not.
+TEST(Evidence, GentleTurnsTellWhereThereAreNoPixels) {
+  std::vector<float> rough;
+  Random random(5);
+  for (int i = 0; i < 200; ++i) rough.push_back(0.014F * static_cast<float>(random.normal()));
+  EXPECT_GT(agreement_of(rough), 100.0);
+  EXPECT_EQ(agreement_of(rough, {true, 0.0}), 0.0);
 }
 
 }  // namespace

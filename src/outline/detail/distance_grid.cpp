@@ -7,12 +7,14 @@
 namespace rejoin::outline::detail {
 namespace {
 
-constexpr int kMargin = 4;  ///< cells around the piece
+constexpr int kMargin = 4;        ///< cells around the piece
+constexpr double kPlaces = 96.0;  ///< along the longer side
+constexpr double kMostCells = 512.0;
 constexpr int kSubpixelBits = 4;
 
 }  // namespace
 
-DistanceGrid::DistanceGrid(const Outline& outline, int cells) {
+DistanceGrid::DistanceGrid(const Outline& outline, double cell) {
   glm::dvec2 high = outline.points[0];
   low_ = high;
   for (const glm::dvec2& p : outline.points) {
@@ -20,7 +22,10 @@ DistanceGrid::DistanceGrid(const Outline& outline, int cells) {
     high = glm::max(high, p);
   }
   const glm::dvec2 size = high - low_;
-  cell_ = std::max(size.x, size.y) / cells;
+  const double longer = std::max(size.x, size.y);
+  cell_ = std::clamp(cell, longer / kMostCells, longer / kPlaces);
+  const int every = std::max(1, static_cast<int>(std::lround(longer / kPlaces / cell_)));
+  area_of_place_ = every * every * cell_ * cell_;
   low_ -= glm::dvec2(kMargin * cell_);
   columns_ = static_cast<int>(std::ceil(size.x / cell_)) + 2 * kMargin;
   rows_ = static_cast<int>(std::ceil(size.y / cell_)) + 2 * kMargin;
@@ -47,7 +52,8 @@ DistanceGrid::DistanceGrid(const Outline& outline, int cells) {
       const bool in = mask.at<std::uint8_t>(y, x) != 0;
       const float distance = in ? inner.at<float>(y, x) - 0.5F : 0.5F - outer.at<float>(y, x);
       depths_.push_back(distance * static_cast<float>(cell_));
-      if (in) inside_.push_back(low_ + glm::dvec2(x + 0.5, y + 0.5) * cell_);
+      if (in && x % every == 0 && y % every == 0)
+        inside_.push_back(low_ + glm::dvec2(x + 0.5, y + 0.5) * cell_);
     }
   }
 }
