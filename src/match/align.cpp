@@ -42,23 +42,20 @@ Rigid moved(const Rigid& pose, const Vector6& step, const glm::dvec3& pivot) {
 
 /// Samples of B that take part, with what is known of A's nearest points from one round to the next: poses settle, and then
 /// hardly any point needs to be searched.
-struct Chosen {
+struct Followed {
   std::vector<std::uint32_t> list;
   std::vector<mesh::PointIndex::Known> known;
 
-  explicit Chosen(std::vector<std::uint32_t> samples) : list(std::move(samples)), known(list.size()) {}
+  explicit Followed(std::vector<std::uint32_t> samples) : list(std::move(samples)), known(list.size()) {}
 };
 
-/// B's samples that lie within `reach` of A's box can matter; every nth of them if there are more than
-/// `most`.
+/// B's samples that lie within `reach` of A's can matter; every nth of them if there are more than `most`.
 std::vector<std::uint32_t> chosen(const detail::Cloud& cloud, const std::vector<std::uint32_t>& from,
-                                  const detail::Finder& finder, const Rigid& pose, double reach, int most) {
+                                  const mesh::Box& box, const detail::Finder& finder, const Rigid& pose,
+                                  double reach, int most) {
   const detail::Move move(pose);
-  std::vector<std::uint32_t> list;
-  const std::size_t step = detail::stride(from.size(), 8 * most);
-  for (std::size_t i = 0; i < from.size(); i += step) {
-    if (finder.within(move(cloud.points[from[i]]), reach)) list.push_back(from[i]);
-  }
+  std::vector<std::uint32_t> list = detail::chosen_in(box, reach, cloud.points, from, move, 8 * most).list;
+  std::erase_if(list, [&](std::uint32_t i) { return !finder.within(move(cloud.points[i]), reach); });
   if (most > 0 && list.size() > static_cast<std::size_t>(most)) {
     std::vector<std::uint32_t> fewer;
     fewer.reserve(static_cast<std::size_t>(most));
@@ -70,7 +67,7 @@ std::vector<std::uint32_t> chosen(const detail::Cloud& cloud, const std::vector<
 }
 
 void add_broken(System& system, const detail::JointSides& sides, const Rigid& pose, const glm::dvec3& pivot,
-                Chosen& samples, double reach, const AlignOptions& options) {
+                Followed& samples, double reach, const AlignOptions& options) {
   const detail::Cloud& a = sides.a().broken;
   const detail::Cloud& b = sides.b().broken;
   const detail::Move move(pose);
@@ -90,7 +87,7 @@ void add_broken(System& system, const detail::JointSides& sides, const Rigid& po
 
 /// Walls continue across the seam: (p - q).(n_p + n_q) vanishes on planes, cylinders and spheres.
 void add_walls(System& system, const detail::JointSides& sides, const Rigid& pose, const glm::dvec3& pivot,
-               Chosen& samples, double reach, bool quick) {
+               Followed& samples, double reach, bool quick) {
   const detail::Cloud& a = sides.a().walls;
   const detail::Cloud& b = sides.b().walls;
   const double near = detail::kWallNear * sides.lengths().thickness;
@@ -125,18 +122,19 @@ Rigid Joint::align(const Rigid& start, const AlignOptions& options) const {
   const detail::JointSides& s = *sides_;
   const detail::JointLengths& l = s.lengths();
   Rigid pose = start;
-  auto list = chosen(s.b().broken, s.b().broken_of(options.facet_b), s.broken_finder(options.quick), pose,
-                     2.0 * options.reach_start, options.most_samples);
-  auto near_walls = l.thickness > 0
-                        ? chosen(s.b().walls, s.b().all_walls, s.wall_finder(options.quick), pose,
-                                 detail::kWallNear * l.thickness + options.reach_start, options.most_samples)
-                        : std::vector<std::uint32_t>{};
+  auto list = chosen(s.b().broken, s.b().broken_of(options.facet_b), s.a().broken_box,
+                     s.broken_finder(options.quick), pose, 2.0 * options.reach_start, options.most_samples);
+  auto near_walls =
+      l.thickness > 0
+          ? chosen(s.b().walls, s.b().all_walls, s.a().wall_box, s.wall_finder(options.quick), pose,
+                   detail::kWallNear * l.thickness + options.reach_start, options.most_samples)
+          : std::vector<std::uint32_t>{};
   if (options.half >= 0) {
     std::erase_if(list, [&](std::uint32_t i) { return static_cast<int>(i % 2) != options.half; });
   }
   if (list.size() < 12) return pose;
-  Chosen broken(std::move(list));
-  Chosen walls(std::move(near_walls));
+  Followed broken(std::move(list));
+  Followed walls(std::move(near_walls));
   for (int k = 0; k < options.iterations; ++k) {
     const double part = options.iterations > 1 ? static_cast<double>(k) / (options.iterations - 1) : 1.0;
     const double reach = options.reach_start * std::pow(options.reach_end / options.reach_start, part);

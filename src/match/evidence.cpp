@@ -24,10 +24,10 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using detail::Finder;
 using detail::kFacing;
 using detail::kWallNear;
-using detail::stride;
 
 constexpr int kBodySamples = 4000;       // of B that are asked whether they lie inside A
 constexpr double kWallStep = 0.3;        // wall thicknesses by which walls that go on may be offset
+constexpr double kWallsTell = 0.1;       // of the shared area, of walls at the seam that tell something
 constexpr double kWallBend = 0.25;       // walls bend by at most 75 degrees at a seam
 constexpr int kQuadricRounds = 12;       // at most
 constexpr double kQuadricSteady = 0.02;  // share by which the deviation may still change in the end
@@ -183,7 +183,7 @@ class Look {
     std::vector<double> core_gaps;
     std::vector<glm::vec3> touching;  ///< of all, A's axes
     std::size_t unbacked = 0;         ///< of these, how many have nothing behind them on either side
-    double share = 0;                 ///< surface that each stands for
+    double area = 0;                  ///< of what lies over A
     glm::dvec3 normal{0.0};           ///< sum of A's
 
     bool has_shape() const { return core.size() >= 12 && glm::length(normal) > 0; }
@@ -191,11 +191,10 @@ class Look {
 
   Contact contact_of(const std::vector<std::uint32_t>& from) const {
     Contact c;
-    const std::size_t step = stride(from.size(), most_samples_);
-    c.share = static_cast<double>(step) * b_.sample_area;
     const auto farthest = static_cast<float>(std::hypot(lengths_.spacing, kOver * lengths_.tolerance));
-    for (std::size_t k = 0; k < from.size(); k += step) {
-      const std::uint32_t i = from[k];
+    const detail::Chosen chosen =
+        detail::chosen_in(a_.broken_box, farthest, b_.broken.points, from, move_, most_samples_);
+    for (const std::uint32_t i : chosen.list) {
       const glm::vec3 p = move_(b_.broken.points[i]);
       const auto hit = a_.broken_index->nearest_within(p, farthest);
       if (!hit) continue;
@@ -207,6 +206,7 @@ class Look {
       if (aside > lengths_.spacing || std::abs(gap) > kOver * lengths_.tolerance) continue;
       if (glm::dot(n, move_.direction(b_.broken.normals[i])) > kFacing) continue;
       c.gaps.push_back(gap);
+      c.area += chosen.each * static_cast<double>(b_.broken.areas[i]);
       c.normal += glm::dvec3(n);
       if (!b_.broken.edge[i] && !a_.broken.edge[hit->first]) {
         c.core.emplace_back(p);
@@ -220,9 +220,11 @@ class Look {
   }
 
   void look_at_contact(const Contact& c, Evidence& e) const {
-    e.contact_area = static_cast<double>(c.touching.size()) * c.share;
-    e.shared_area = static_cast<double>(c.gaps.size()) * c.share;
-    e.unbacked_area = static_cast<double>(c.unbacked) * c.share;
+    // Single samples' areas vary too much to tell shares of the contact by them.
+    const double each = c.area / static_cast<double>(std::max<std::size_t>(1, c.gaps.size()));
+    e.contact_area = static_cast<double>(c.touching.size()) * each;
+    e.shared_area = c.area;
+    e.unbacked_area = static_cast<double>(c.unbacked) * each;
     e.patch_area = lengths_.patch * lengths_.patch;
     e.gap_median = median_gap(c.gaps);
     if (glm::length(c.normal) > 0) e.normal = glm::normalize(c.normal);
@@ -235,8 +237,7 @@ class Look {
     e.gap_spread = robust_deviation(std::move(gaps));
     e.relief = robust_deviation(heights_above_quadric(c.core, glm::normalize(c.normal), rounds));
     std::tie(e.centre, e.along) = middle_and_axis(c.core);
-    const double patches = static_cast<double>(c.core.size()) * c.share / e.patch_area;
-    e.information = 0.5 * patches *
+    e.information = 0.5 * static_cast<double>(c.core.size()) * each / e.patch_area *
                     std::log((e.relief * e.relief + lengths_.noise * lengths_.noise) /
                              (e.gap_spread * e.gap_spread + lengths_.noise * lengths_.noise));
   }
@@ -265,20 +266,22 @@ class Look {
   void look_for_penetration(Evidence& e) const {
     const Finder finder = sides_.body_finder(quick_);
     const int most = most_samples_ > 0 ? std::min(most_samples_, kBodySamples) : kBodySamples;
-    const std::size_t step = stride(b_.body.points.size(), most);
+    const detail::Chosen chosen =
+        detail::chosen_in(a_.body_box, 0.0, b_.body.points, b_.all_body, move_, most);
     double inside = 0.0;
     double depth = 0.0;
-    for (std::size_t i = 0; i < b_.body.points.size(); i += step) {
+    for (const std::uint32_t i : chosen.list) {
       const glm::vec3 p = move_(b_.body.points[i]);
       const auto hit = finder.within(p, lengths_.deepest());
       if (!hit) continue;
       const glm::vec3 offset = p - a_.body.points[hit->first];
       const auto gap = static_cast<double>(glm::dot(offset, a_.body.normals[hit->first]));
       if (gap > -3.0 * lengths_.tolerance || -gap < 0.7 * static_cast<double>(hit->second)) continue;
-      inside += 1.0;
-      depth -= gap;
+      const double area = chosen.each * static_cast<double>(b_.body.areas[i]);
+      inside += area;
+      depth -= gap * area;
     }
-    e.penetration_area = inside * static_cast<double>(step) * b_.sample_area;
+    e.penetration_area = inside;
     e.penetration = inside > 0 ? depth / inside : 0.0;
   }
 
@@ -286,20 +289,28 @@ class Look {
     const double near = kWallNear * lengths_.thickness;
     const Finder near_broken = sides_.broken_finder(quick_);
     const Finder finder = sides_.wall_finder(quick_);
-    double found = 0.0;
+    const Finder anything = sides_.body_finder(quick_);
+    const double step = kWallStep * lengths_.thickness;
+    double found = 0.0;  // areas
     double all = 0.0;
-    const std::size_t step = stride(b_.walls.points.size(), most_samples_);
-    for (std::size_t i = 0; i < b_.walls.points.size(); i += step) {
+    const detail::Chosen chosen =
+        detail::chosen_in(a_.broken_box, near, b_.walls.points, b_.all_walls, move_, most_samples_);
+    for (const std::uint32_t i : chosen.list) {
       const glm::vec3 p = move_(b_.walls.points[i]);
-      const auto seam = near_broken.within(p, near);
-      if (!seam) continue;
-      all += 1.0;
+      const auto hit = near_broken.within(p, near);
+      if (!hit) continue;
+      const glm::vec3 seam = a_.broken.points[hit->first];
       const glm::dvec3 normal(move_.direction(b_.walls.normals[i]));
-      if (goes_on(p, normal, a_.broken.points[seam->first], near, finder,
-                  {a_.walls, kWallBend, kWallStep * lengths_.thickness}))
-        found += 1.0;
+      bool goes = goes_on(p, normal, seam, near, finder, {a_.walls, kWallBend, step});
+      if (!goes && a_.open) {
+        if (!anything.within(2.0F * seam - p, near)) continue;  // not scanned
+        goes = goes_on(p, normal, seam, near, anything, {a_.body, kWallBend, step});
+      }
+      const double area = chosen.each * static_cast<double>(b_.walls.areas[i]);
+      all += area;
+      if (goes) found += area;
     }
-    if (all > 0) e.wall_share = found / all;
+    if (all > kWallsTell * e.shared_area) e.wall_share = found / all;
   }
 
   /// What of B lies around the contact, and whether A goes on there: at a true joint the skin of the object does, on both sides
@@ -317,9 +328,9 @@ class Look {
       const glm::dvec3 normal(move_.direction(b_.body.normals[i]));
       if (goes_on(p, normal, touching[border->first], far, finder,
                   {a_.body, kBorderAlike, kBorderStep * lengths_.patch}))
-        found += 1.0;
+        found += static_cast<double>(b_.body.areas[i]);
     }
-    e.continuation = found * b_.sample_area / e.patch_area;
+    e.continuation = found / e.patch_area;
   }
 
   /// What surfaces of one skin have in common.

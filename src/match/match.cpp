@@ -30,6 +30,12 @@ constexpr const char* kWalls =
 constexpr double kFacetSpread_deg =
     25.0;  // how far a facet's mean normal may lie from the direction that a user sees
 
+/// Breaks, of a piece that has any: walls join nothing.
+bool may_join(const Fragment& fragment, const mesh::Facet& facet) {
+  const std::vector<mesh::Facet>& all = fragment.facets.facets;
+  return facet.fracture || all.empty() || !all.front().fracture;
+}
+
 /// Facets of both cuts that face one of the directions, or the one of each cut that comes closest.
 std::vector<int> facets_facing(const Fragment& fragment, const std::vector<glm::dvec3>& directions,
                                double tolerance_deg) {
@@ -42,6 +48,7 @@ std::vector<int> facets_facing(const Fragment& fragment, const std::vector<glm::
       int closest = -1;
       double best = -2.0;
       for (int f = first; f < end; ++f) {
+        if (!may_join(fragment, facet(fragment, f))) continue;
         const double cosine = glm::dot(facet(fragment, f).normal, glm::normalize(direction));
         if (cosine > limit) list.push_back(f);
         if (cosine <= best) continue;
@@ -62,13 +69,25 @@ void doubt_directions(const Fragment& fragment, const std::vector<glm::dvec3>& d
   for (const glm::dvec3& direction : directions) {
     double closest = -1.0;
     for (const mesh::Facet& facet : fragment.facets.facets)
-      closest = std::max(closest, glm::dot(facet.normal, glm::normalize(direction)));
+      if (may_join(fragment, facet))
+        closest = std::max(closest, glm::dot(facet.normal, glm::normalize(direction)));
     const double off_deg = std::acos(std::min(closest, 1.0)) / kDegree;
     if (off_deg <= tolerance_deg + kFacetSpread_deg) continue;
     warnings.push_back(fmt::format(
-        "{}: no facet faces {:.3g},{:.3g},{:.3g}; the closest one is {:.0f} degrees off: directions "
+        "{}: no break faces {:.3g},{:.3g},{:.3g}; the closest one is {:.0f} degrees off: directions "
         "point out of the piece, in its file's axes (see rejoin facets)",
         fragment.path, direction.x, direction.y, direction.z, off_deg));
+  }
+}
+
+void doubt_facets(const Fragment& fragment, const std::vector<int>& chosen,
+                  std::vector<std::string>& warnings) {
+  for (const int number : chosen) {
+    if (may_join(fragment, facet(fragment, number))) continue;
+    warnings.push_back(
+        fmt::format("{}: its facet {} is original surface, which joins nothing: if it is a break, paint it "
+                    "(rejoin facets, --facets)",
+                    fragment.path, number));
   }
 }
 
@@ -89,6 +108,8 @@ std::vector<Hypothesis> run_sweep(const Fragment& a, const Fragment& b, const Op
                                   const std::optional<Near>& near, const Context& context, Result& result) {
   doubt_directions(a, options.directions_a, options.tolerance_deg, result.warnings);
   doubt_directions(b, options.directions_b, options.tolerance_deg, result.warnings);
+  doubt_facets(a, options.facets_a, result.warnings);
+  doubt_facets(b, options.facets_b, result.warnings);
   SweepOptions sweep_options;
   sweep_options.facets_a = allowed_facets(a, options.facets_a, options.directions_a, options);
   sweep_options.facets_b = allowed_facets(b, options.facets_b, options.directions_b, options);

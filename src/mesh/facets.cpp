@@ -242,7 +242,9 @@ void measure(Facet& facet, const Segmentation& s) {
   glm::dvec3 normal(0.0);
   glm::dvec3 centre(0.0);
   double rough = 0.0;
+  facet.area = 0.0;
   for (const auto i : facet.samples) {
+    facet.area += static_cast<double>(s.samples.areas[i]);
     normal += glm::dvec3(s.normals[i]);
     centre += glm::dvec3(s.samples.points[i]);
     rough += static_cast<double>(s.roughness[i]);
@@ -251,7 +253,6 @@ void measure(Facet& facet, const Segmentation& s) {
   facet.normal = glm::length(normal) > 0 ? glm::normalize(normal) : glm::dvec3(0, 0, 1);
   facet.centre = centre / count;
   facet.roughness = rough / count;
-  facet.area = count * s.sample_area;
   const glm::dmat3 frame = frame_of(facet.normal);
   Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
   for (const auto i : facet.samples) {

@@ -43,7 +43,7 @@ struct Segmentation : Cut {
   double wall_thickness = 0;  ///< most frequent wall thickness, mesh units; 0 for a solid piece
   std::vector<bool>
       backed;              ///< per sample: other surface lies behind it; a scan from one side has hardly any
-  double sample_area = 0;  ///< surface that a sample stands for, squared mesh units
+  double sample_area = 0;  ///< surface that a sample stands for on average, squared mesh units
 };
 
 /// Segments a surface.

@@ -104,7 +104,9 @@ Samples sample_surface(const Mesh& mesh, std::size_t count) {
     cell.face = dart.face;
   }
   const auto normals = face_normals(mesh);
+  const double of_dart = area / static_cast<double>(std::max<std::size_t>(1, darts.size()));
   for (const Cell& cell : cells) {
+    samples.areas.push_back(static_cast<float>(of_dart * cell.count));
     samples.points.push_back(cell.point);
     samples.normals.push_back(normals[cell.face]);
     samples.faces.push_back(cell.face);

@@ -12,7 +12,9 @@ struct Samples {
   std::vector<glm::vec3> points;     ///< on the surface, relative to the mesh's origin
   std::vector<glm::vec3> normals;    ///< unit, outwards: of the face the sample lies on
   std::vector<std::uint32_t> faces;  ///< the face each sample lies on
-  double spacing = 0;                ///< typical distance of neighbours, mesh units
+  std::vector<float> areas;  ///< surface that each stands for, squared mesh units: all but evenly spread, for
+                             ///< a surface askew to the axes has more samples, of less area each
+  double spacing = 0;        ///< typical distance of neighbours, mesh units
 
   std::size_t size() const { return points.size(); }
 };

@@ -39,6 +39,35 @@ TEST(Evidence, ContactOrdersWeakPosesAndNoStrongOnes) {
   EXPECT_EQ(rank(Evidence{}), 0.0);
 }
 
+// Of a piece 25 times as large as its chip, few samples lie where the chip is.
+TEST(Evidence, FewSamplesOfAMuchLargerPieceAreLookedAtWhereTheOtherOneLies) {
+  const Fragment chip = prepare("chip", testing::half_block(true, 20, 0.2), Context{});
+  const Fragment rest = prepare("rest", testing::half_block(false, 100), Context{});
+  const Joint joint(chip, rest);
+  const Rigid truth = to_origins(chip, rest, Rigid{});
+  const Evidence few = joint.evidence(truth, 300);
+  const Evidence all = joint.evidence(truth, 0);
+  EXPECT_GT(all.contact_area, 0.04 * 4.0 * testing::kHalfX * testing::kHalfY);  // as it is bent
+  EXPECT_NEAR(few.contact_area, all.contact_area, 0.1 * all.contact_area);
+  EXPECT_GE(few.core_samples, 12);
+}
+
+/// The same pair lying otherwise in its files' axes.
+double contact_when_turned(double angle) {
+  const Rigid turn{axis_rotation(glm::normalize(glm::dvec3(1.0, 0.2, -0.1)), angle), glm::dvec3(0.0)};
+  const Fragment below = prepare("below", testing::moved(testing::half_block(true, 48), turn, {}), Context{});
+  const Fragment above =
+      prepare("above", testing::moved(testing::half_block(false, 48), turn, {}), Context{});
+  return Joint(below, above).evidence(to_origins(below, above, Rigid{}), 0).contact_area;
+}
+
+// Surfaces askew to the axes have more samples, of less area each.
+TEST(Evidence, ContactAreaIsTheSameHoweverScansLieInTheirAxes) {
+  const double straight = contact_when_turned(0.0);
+  EXPECT_NEAR(contact_when_turned(0.3), straight, 0.06 * straight);
+  EXPECT_NEAR(contact_when_turned(0.785), straight, 0.06 * straight);
+}
+
 /// Poses from the truth to where nothing touches, and what evidence at them is worth.
 std::vector<Rigid> poses_around(const Rigid& truth) {
   std::vector<Rigid> poses;

@@ -182,6 +182,25 @@ TEST(Match, AsksForDirectionsAndLooksNowhereElse) {
   EXPECT_LT(narrow.evaluations, wide.evaluations);
 }
 
+// The walls of a sherd join nothing.
+TEST(Match, TellsOfWallsThatAreAskedFor) {
+  const auto thin_half = [](bool below) {
+    mesh::Mesh half = testing::half_block(below, 64);
+    for (auto& v : half.vertices) v.y *= 0.12F;
+    return prepare(below ? "below" : "above", half, Context{});
+  };
+  const Fragment below = thin_half(true);
+  const Fragment above = thin_half(false);
+  const auto& facets = below.facets.facets;
+  const auto wall = std::ranges::find_if(facets, [](const mesh::Facet& facet) { return !facet.fracture; });
+  ASSERT_NE(wall, facets.end());
+  Options options;
+  options.facets_a = {static_cast<int>(wall - facets.begin())};
+  const Result of_facet = match(below, above, options, Context{});
+  ASSERT_FALSE(of_facet.warnings.empty());
+  EXPECT_NE(of_facet.warnings[0].find("is original surface"), std::string::npos) << of_facet.warnings[0];
+}
+
 // The sides of this block face along the axes, so its corners' direction lies 55 degrees from the closest.
 TEST(Match, TellsOfADirectionThatNoFacetFaces) {
   const Fragment below = prepare("below", testing::half_block(true, 48), Context{});
@@ -193,7 +212,7 @@ TEST(Match, TellsOfADirectionThatNoFacetFaces) {
   options.directions_a = {{1, 1, -1}};
   const Result result = match(below, above, options, Context{});
   ASSERT_EQ(result.warnings.size(), 1U);
-  EXPECT_NE(result.warnings[0].find("below: no facet faces 1,1,-1; the closest one is 55 degrees off"),
+  EXPECT_NE(result.warnings[0].find("below: no break faces 1,1,-1; the closest one is 55 degrees off"),
             std::string::npos)
       << result.warnings[0];
 }

@@ -21,11 +21,12 @@ inline double cut_height(double x, double y) {
 }
 
 /// Half of the block, closed, in the block's frame: below the cut, or above it.
-inline mesh::Mesh half_block(bool below, int cells) {
+/// \param share  of its length and width that is left, about its middle
+inline mesh::Mesh half_block(bool below, int cells, double share = 1.0) {
   mesh::Mesh half;
   const auto vertex = [&](int i, int j, bool cut) {
-    const double x = kHalfX * (2.0 * i / cells - 1);
-    const double y = kHalfY * (2.0 * j / cells - 1);
+    const double x = share * kHalfX * (2.0 * i / cells - 1);
+    const double y = share * kHalfY * (2.0 * j / cells - 1);
     return glm::vec3(x, y, cut ? cut_height(x, y) : (below ? -kHalfZ : kHalfZ));
   };
   const auto index = [&](int i, int j, bool cut) {

@@ -1,22 +1,28 @@
 #include "match/detail/joint_sides.hpp"
 
 #include <cmath>
+#include <numeric>
 
 #include "mesh/neighbours.hpp"
 
 namespace rejoin::match::detail {
 namespace {
 
-constexpr double kWallClear = 0.25;     // wall thicknesses next to the seam that are left out: worn edges lie
+constexpr double kWallClear = 0.25;  // wall thicknesses next to the seam that are left out: worn edges lie
+constexpr double kOpen = 0.05;  // of the surface has nothing behind it, of a scan whose walls may be missing
 constexpr double kTableCell = 2.0;      // spacings: side of the cells of tables of near points
 constexpr double kTableReach = 20.0;    // tolerances: how far a quick alignment looks
+constexpr double kEnough = 1.0 / 3.0;   // of the samples asked for, at least, where the other piece is
 constexpr double kWallTableCell = 3.0;  // the same for walls, which are smooth
 
 Side side_of(const mesh::Segmentation& s, double edge_radius) {
   Side side;
-  side.sample_area = s.sample_area;
+  side.open = mesh::unbacked_share(s) > kOpen;
   side.body.points = s.samples.points;
   side.body.normals = s.normals;
+  side.body.areas = s.samples.areas;
+  side.all_body.resize(s.samples.size());
+  std::iota(side.all_body.begin(), side.all_body.end(), 0U);
   side.body_index = std::make_unique<mesh::PointIndex>(side.body.points);
   const mesh::Neighbours neighbours(side.body.points, static_cast<float>(edge_radius));
   side.broken_of_facet.resize(s.facets.size() + s.creased.facets.size());
@@ -34,6 +40,7 @@ Side side_of(const mesh::Segmentation& s, double edge_radius) {
     }
     side.broken.points.push_back(s.samples.points[i]);
     side.broken.normals.push_back(s.normals[i]);
+    side.broken.areas.push_back(s.samples.areas[i]);
     side.broken.backed.push_back(s.backed[i]);
     neighbours.of(s.samples.points[i], near);
     side.broken.edge.push_back(std::any_of(near.begin(), near.end(), [&](std::uint32_t k) {
@@ -50,9 +57,13 @@ Side side_of(const mesh::Segmentation& s, double edge_radius) {
       side.all_walls.push_back(static_cast<std::uint32_t>(side.walls.points.size()));
       side.walls.points.push_back(s.samples.points[i]);
       side.walls.normals.push_back(s.normals[i]);
+      side.walls.areas.push_back(s.samples.areas[i]);
     }
   }
   side.wall_index = std::make_unique<mesh::PointIndex>(side.walls.points);
+  side.broken_box = box_of(side.broken.points);
+  side.wall_box = box_of(side.walls.points);
+  side.body_box = box_of(side.body.points);
   return side;
 }
 
@@ -76,7 +87,37 @@ std::shared_ptr<const Side> side_of(const Fragment& fragment, const JointLengths
       side_of(mesh::denser(fragment.facets, fragment.surface, lengths.spacing), edge));
 }
 
+bool is_in(const mesh::Box& box, const glm::vec3& p) {
+  return glm::all(glm::lessThanEqual(box.low, p)) && glm::all(glm::lessThanEqual(p, box.high));
+}
+
 }  // namespace
+
+mesh::Box box_of(const std::vector<glm::vec3>& points) {
+  return points.empty() ? mesh::Box{glm::vec3(1.0F), glm::vec3(-1.0F)} : mesh::bounds(points);
+}
+
+Chosen chosen_in(const mesh::Box& box, double reach, const std::vector<glm::vec3>& points,
+                 const std::vector<std::uint32_t>& from, const Move& move, int most) {
+  if (most <= 0 || from.size() <= static_cast<std::size_t>(most)) return {from};
+  const auto more = glm::vec3(static_cast<float>(reach));
+  const mesh::Box grown{box.low - more, box.high + more};
+  const auto near = [&](std::size_t step) {
+    std::vector<std::uint32_t> list;
+    for (std::size_t k = 0; k < from.size(); k += step)
+      if (is_in(grown, move(points[from[k]]))) list.push_back(from[k]);
+    return list;
+  };
+  const std::size_t step = from.size() / static_cast<std::size_t>(most);
+  const auto enough = static_cast<std::size_t>(kEnough * most);
+  Chosen chosen{near(step), static_cast<double>(step)};
+  if (step == 1 || chosen.list.size() >= enough) return chosen;
+  const std::vector<std::uint32_t> all = near(1);
+  const std::size_t fewer = std::max<std::size_t>(1, all.size() / std::max<std::size_t>(1, enough));
+  chosen = {{}, static_cast<double>(fewer)};
+  for (std::size_t k = 0; k < all.size(); k += fewer) chosen.list.push_back(all[k]);
+  return chosen;
+}
 
 JointSides::JointSides(const Fragment& a, const Fragment& b) : lengths_(lengths_of(a, b)) {
   a_ = side_of(a, lengths_);

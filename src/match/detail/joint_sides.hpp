@@ -25,9 +25,13 @@ inline constexpr float kWallAlike = 0.7F;  ///< wall normals across a seam diffe
 struct Cloud {
   std::vector<glm::vec3> points;
   std::vector<glm::vec3> normals;
+  std::vector<float> areas;  ///< that points stand for
   std::vector<bool> backed;  ///< of `broken`: mesh::Segmentation::backed
   std::vector<bool> edge;    ///< next to another facet: worn, of no use for the relief
 };
+
+/// Box of points; empty without any.
+mesh::Box box_of(const std::vector<glm::vec3>& points);
 
 /// Looks for the point of a cloud that is nearest to another.
 class Finder {
@@ -54,17 +58,20 @@ class Finder {
 
 /// One fragment.
 struct Side {
+  bool open = false;  ///< the scan lacks surface: walls with nothing behind them count as broken
   Cloud broken;
   Cloud walls;  ///< thin pieces: original surface near the fracture
   Cloud body;   ///< every sample
   std::unique_ptr<mesh::PointIndex> broken_index;
   std::unique_ptr<mesh::PointIndex> wall_index;
   std::unique_ptr<mesh::PointIndex> body_index;
+  mesh::Box broken_box;                                     ///< of `broken`
+  mesh::Box wall_box;                                       ///< of `walls`
+  mesh::Box body_box;                                       ///< of `body`
+  std::vector<std::uint32_t> all_body;                      ///< 0, 1, ... into `body`
   std::vector<std::uint32_t> all_walls;                     ///< 0, 1, ... into `walls`
   std::vector<std::uint32_t> all_broken;                    ///< 0, 1, ... into `broken`
   std::vector<std::vector<std::uint32_t>> broken_of_facet;  ///< into `broken`; by match/cuts.hpp's numbers
-  double sample_area = 0;
-
   /// The broken samples of one facet; of all for -1.
   const std::vector<std::uint32_t>& broken_of(int facet) const {
     return facet < 0 ? all_broken : broken_of_facet[static_cast<std::size_t>(facet)];
@@ -122,11 +129,6 @@ class JointSides {
   mutable std::once_flag made_tables_;
 };
 
-/// Step that visits at most `most` of `count` items; most <= 0: all.
-inline std::size_t stride(std::size_t count, int most) {
-  return most > 0 ? std::max<std::size_t>(1, count / static_cast<std::size_t>(most)) : 1;
-}
-
 /// A pose in single precision, for samples.
 class Move {
  public:
@@ -138,5 +140,17 @@ class Move {
   glm::mat3 rotation_;
   glm::vec3 shift_;
 };
+
+/// Some samples of many.
+struct Chosen {
+  std::vector<std::uint32_t> list;
+  double each = 1;  ///< samples that one of them stands for
+};
+
+/// Evenly chosen samples that come to lie in a box grown by `reach`: those of about `most` of all that do or, if these are less than a third of
+/// `most`, denser ones, as of a piece much larger than the other one only few lie near it.
+/// \param most  <= 0: all of `from`, wherever they lie
+Chosen chosen_in(const mesh::Box& box, double reach, const std::vector<glm::vec3>& points,
+                 const std::vector<std::uint32_t>& from, const Move& move, int most);
 
 }  // namespace rejoin::match::detail
