@@ -337,6 +337,7 @@ bool Grower::try_two(State& state, const Context& context) {
 }
 
 bool Grower::overlap(std::size_t a, std::size_t b, const Rigid& b_to_a) {
+  if (!are_near(pieces_[a], pieces_[b], b_to_a, 0.0)) return false;  // most are not: nothing to keep
   std::vector<double> key{static_cast<double>(a), static_cast<double>(b)};
   for (int k = 0; k < 3; ++k) {
     key.insert(key.end(),

@@ -102,7 +102,7 @@ void require_some_known(SQLite::Database& database, const std::map<std::string, 
                      fmt::format("is of other scans: {} and {} more", known.front().name, known.size() - 1),
                      "give the folder of those scans, or another --out");
   }
-  if (named > 0 && same == 0 && has_results(database)) {
+  if (named > 0 && same == 0 && shard.empty() && has_results(database)) {
     throw StoreError(
         path, fmt::format("is of other scans of the same names: {} and {} more", first_named, named - 1),
         "give another --out, or remove this file if all scans were made anew");
