@@ -113,7 +113,9 @@ class OutlineAssembleCommand final : public Command {
     }
     console.result(summary(set.pieces, assembly));
     if (!assembly.unplaced.empty() && method_ != OutlineMethod::Lcs)
-      console.result("  what lies upside down fits nowhere either; --method lcs finds it\n");
+      console.result(
+          "  what lies upside down fits nowhere either; --method lcs finds it, but takes straight edges for "
+          "joins\n");
     if (json_) console.result(fmt::format("wrote {}\n", *json_));
     if (out_ && !assembly.cancelled) write_pictures(set.pieces, assembly, console, context);
     return assembly.cancelled ? kInterrupted : finished_with(set, console);
