@@ -113,13 +113,13 @@ Piece::Piece(const match::Fragment& fragment) : fragment_(&fragment) {
     if (facets.surface[i] != mesh::Surface::Fracture) continue;
     broken_.at.push_back(facets.samples.points[i]);
     broken_.normals.push_back(facets.normals[i]);
+    broken_.areas.push_back(facets.samples.areas[i]);
   }
   const std::size_t step = stride(facets.samples.size(), kBodySamples);
   for (std::size_t i = 0; i < facets.samples.size(); i += step) {
     body_.at.push_back(facets.samples.points[i]);
     body_.normals.push_back(facets.normals[i]);
   }
-  broken_area_ = facets.sample_area;
   body_area_ = facets.sample_area * static_cast<double>(step);
   broken_index_ = std::make_unique<mesh::PointIndex>(broken_.at);
   gap_ = std::make_unique<match::GapField>(fragment.surface);
@@ -157,7 +157,8 @@ std::vector<Facing> facing_points(const Piece& a, const Piece& b, const Rigid& b
     if (!hit) continue;
     const glm::dvec3 normal(a.broken().normals[hit->first]);
     if (glm::dot(normal, b_to_a.rotation * glm::dvec3(b.broken().normals[i])) > kFacing) continue;
-    result.push_back({origin_a + glm::dvec3(a.broken().at[hit->first]), normal, on_b});
+    result.push_back({origin_a + glm::dvec3(a.broken().at[hit->first]), normal, on_b,
+                      static_cast<double>(b.broken().areas[i])});
   }
   const std::size_t step = stride(result.size(), most);
   if (step == 1) return result;
@@ -170,7 +171,8 @@ std::vector<Facing> facing_points(const Piece& a, const Piece& b, const Rigid& b
 Touch touch(const Piece& a, const Piece& b, const Rigid& b_to_a) {
   const double tolerance = match::contact_tolerance(a.fragment(), b.fragment());
   const double aside = std::max(a.spacing(), b.spacing());
-  double touching_count = 0.0;
+  double area = 0.0;
+  double touching = 0.0;
   std::vector<double> gaps;
   for (const Facing& facing : facing_points(a, b, b_to_a, std::hypot(aside, match::kOver * tolerance), 0)) {
     const glm::dvec3 offset = b_to_a(facing.on_b) - facing.on_a;
@@ -178,9 +180,11 @@ Touch touch(const Piece& a, const Piece& b, const Rigid& b_to_a) {
     if (std::abs(gap) > match::kOver * tolerance) continue;
     if (glm::length(offset - gap * facing.normal_a) > aside) continue;
     gaps.push_back(gap);
-    if (std::abs(gap) <= tolerance) touching_count += 1.0;
+    area += facing.area_of_b;
+    if (std::abs(gap) <= tolerance) touching += 1.0;
   }
-  return {touching_count * b.broken_area(), match::median_gap(std::move(gaps))};
+  return {area * touching / static_cast<double>(std::max<std::size_t>(1, gaps.size())),
+          match::median_gap(std::move(gaps))};
 }
 
 bool touch_forbidden(const Piece& a, const Piece& b, const Rigid& b_to_a) {

@@ -17,6 +17,7 @@ namespace rejoin::assembly {
 struct Points {
   std::vector<glm::vec3> at;
   std::vector<glm::vec3> normals;
+  std::vector<float> areas;  ///< of `broken` alone: that each stands for
 };
 
 /// Const members may be called from several threads.
@@ -29,8 +30,7 @@ class Piece {
   const Points& broken() const { return broken_; }  ///< samples of the broken surface
   const Points& body() const { return body_; }      ///< samples of all of it, about 2,500
   const mesh::PointIndex& broken_index() const { return *broken_index_; }
-  double broken_area() const { return broken_area_; }  ///< that one broken sample stands for
-  double body_area() const { return body_area_; }      ///< that one body sample stands for
+  double body_area() const { return body_area_; }  ///< that one body sample stands for
   double spacing() const { return fragment_->facets.samples.spacing; }
   double area() const { return body_area_ * static_cast<double>(body_.at.size()); }
 
@@ -49,7 +49,6 @@ class Piece {
   std::unique_ptr<match::GapField> gap_;
   std::unique_ptr<DepthBound> most_depth_;
   std::vector<bool> on_border_;  ///< faces with a corner on an open edge
-  double broken_area_ = 0;
   double body_area_ = 0;
   glm::dvec3 centre_{0.0};
   double radius_ = 0;
@@ -57,9 +56,10 @@ class Piece {
 
 /// Two of b's and a's broken points that face each other.
 struct Facing {
-  glm::dvec3 on_a;      ///< a's file coordinates
-  glm::dvec3 normal_a;  ///< a's axes
-  glm::dvec3 on_b;      ///< b's file coordinates
+  glm::dvec3 on_a;       ///< a's file coordinates
+  glm::dvec3 normal_a;   ///< a's axes
+  glm::dvec3 on_b;       ///< b's file coordinates
+  double area_of_b = 0;  ///< that b's point stands for
 };
 
 /// b's broken points with their nearest neighbours on a's broken surface, within `reach` and face to face.

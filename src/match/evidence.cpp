@@ -28,6 +28,7 @@ using detail::kWallNear;
 constexpr int kBodySamples = 4000;       // of B that are asked whether they lie inside A
 constexpr double kWallStep = 0.3;        // wall thicknesses by which walls that go on may be offset
 constexpr double kWallsTell = 0.1;       // of the shared area, of walls at the seam that tell something
+constexpr double kScanned = 0.5;         // wall thicknesses within which a scan has surface where it was scanned
 constexpr double kWallBend = 0.25;       // walls bend by at most 75 degrees at a seam
 constexpr int kQuadricRounds = 12;       // at most
 constexpr double kQuadricSteady = 0.02;  // share by which the deviation may still change in the end
@@ -303,7 +304,7 @@ class Look {
       const glm::dvec3 normal(move_.direction(b_.walls.normals[i]));
       bool goes = goes_on(p, normal, seam, near, finder, {a_.walls, kWallBend, step});
       if (!goes && a_.open) {
-        if (!anything.within(2.0F * seam - p, near)) continue;  // not scanned
+        if (!anything.within(2.0F * seam - p, kScanned * lengths_.thickness)) continue;
         goes = goes_on(p, normal, seam, near, anything, {a_.body, kWallBend, step});
       }
       const double area = chosen.each * static_cast<double>(b_.walls.areas[i]);

@@ -14,5 +14,6 @@ int main(int argc, char** argv) {
   report::write_run_report(none, folder / "empty.html", Context());
   // The viewer's cost is in the surfaces and pictures, and a row of balls has the most of both.
   report::write_run_report(report::long_row(60, 90), folder / "sixty.html", Context());
+  report::write_run_report(report::long_row(200, 4), folder / "many.html", Context());
   return 0;
 }

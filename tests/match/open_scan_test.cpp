@@ -1,0 +1,65 @@
+/// Sherds of which a scan lacks surface, as where they lay on the table.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "match/align.hpp"
+#include "match/match.hpp"
+#include "shatter/surface_nets.hpp"
+
+namespace rejoin::match {
+namespace {
+
+constexpr glm::dvec3 kHalf{30, 20, 2};
+
+double broken_at(double y) {
+  return 1.5 * std::sin(0.21 * y) + 0.8 * std::sin(0.55 * y + 1.0) + 0.4 * std::sin(1.3 * y + 0.4);
+}
+
+/// A part of a plate 4 thick that is broken across.
+mesh::Mesh part(bool left) {
+  const shatter::Grid grid{.size = 2.4 * kHalf.x, .spacing = 0.4};
+  return shatter::surface_nets(
+      [left](const glm::dvec3& p) {
+        const glm::dvec3 off = glm::abs(p) - kHalf;
+        const double side = p.x - broken_at(p.y);
+        return std::max({off.x, off.y, off.z, left ? side : -side});
+      },
+      grid, Context{});
+}
+
+/// Without the underside next to the break.
+mesh::Mesh as_it_lay(mesh::Mesh scan) {
+  std::erase_if(scan.faces, [&](const glm::uvec3& face) {
+    const glm::vec3 middle = (scan.vertices[face.x] + scan.vertices[face.y] + scan.vertices[face.z]) / 3.0F;
+    return std::abs(middle.x) < 8.0F && middle.z < -1.9F;
+  });
+  return scan;
+}
+
+double walls_that_go_on(const Fragment& a, const Fragment& b) {
+  return Joint(a, b).evidence(to_origins(a, b, Rigid{}), 0).wall_share;
+}
+
+TEST(OpenScan, WallsGoOnThereWhereTheirOtherSideIsMissing) {
+  const Fragment whole = prepare("whole", part(true), Context{});
+  const Fragment lain = prepare("lain", as_it_lay(part(false)), Context{});
+  EXPECT_GT(walls_that_go_on(lain, whole), 0.8);
+  EXPECT_GT(walls_that_go_on(whole, lain), 0.8);
+  const Result result = match(whole, lain, Options{}, Context{});
+  ASSERT_FALSE(result.candidates.empty());
+  EXPECT_LT(angle_between(result.candidates[0].pose, Rigid{}), 0.03);
+  EXPECT_EQ(result.verdict, Verdict::Join);
+}
+
+// At a pose at which it is turned over about the seam, walls lie on walls, but nothing goes on.
+TEST(OpenScan, WallsDoNotGoOnWhereThePiecesLieOnEachOther) {
+  const Fragment whole = prepare("whole", part(true), Context{});
+  const Fragment lain = prepare("lain", as_it_lay(part(false)), Context{});
+  const Rigid over{axis_rotation({0, 1, 0}, 1.2), {0, 0, 0}};
+  EXPECT_LT(Joint(lain, whole).evidence(to_origins(lain, whole, over), 0).wall_share, 0.5);
+}
+
+}  // namespace
+}  // namespace rejoin::match
