@@ -25,12 +25,12 @@ using detail::Finder;
 using detail::kFacing;
 using detail::kWallNear;
 
-constexpr int kBodySamples = 4000;       // of B that are asked whether they lie inside A
-constexpr double kWallStep = 0.3;        // wall thicknesses by which walls that go on may be offset
-constexpr double kWallsTell = 0.1;       // of the shared area, of walls at the seam that tell something
-constexpr double kScanned = 0.5;         // wall thicknesses within which a scan has surface where it was scanned
-constexpr double kWallBend = 0.25;       // walls bend by at most 75 degrees at a seam
-constexpr int kQuadricRounds = 12;       // at most
+constexpr int kBodySamples = 4000;  // of B that are asked whether they lie inside A
+constexpr double kWallStep = 0.3;   // wall thicknesses by which walls that go on may be offset
+constexpr double kWallsTell = 0.1;  // of the shared area, of walls at the seam that tell something
+constexpr double kScanned = 0.5;    // wall thicknesses within which a scan has surface where it was scanned
+constexpr double kWallBend = 0.25;  // walls bend by at most 75 degrees at a seam
+constexpr int kQuadricRounds = 12;  // at most
 constexpr double kQuadricSteady = 0.02;  // share by which the deviation may still change in the end
 constexpr double kQuadricReach = 7.0;    // robust deviations beyond which a height does not bend the quadric
 constexpr double kLoose = 0.5;           // gap spread, in tolerances, that halves what a joint is worth

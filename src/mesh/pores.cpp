@@ -1,6 +1,7 @@
 #include "mesh/pores.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -89,27 +90,22 @@ std::vector<float> openness(const Mesh& mesh, const Outside& outside) {
 
 /// Borders of what is deep.
 std::size_t mouths(const Mesh& mesh, const std::vector<float>& open) {
-  struct Side {
-    std::uint32_t low, high;
-    bool deep;
-    auto operator<=>(const Side&) const = default;
-  };
-  std::vector<Side> sides;
+  std::vector<std::array<std::uint32_t, 3>> sides;  // both ends, and whether the face is deep
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     for (int k = 0; k < 3; ++k) {
       const auto [low, high] = std::minmax({mesh.faces[f][k], mesh.faces[f][(k + 1) % 3]});
-      sides.push_back({low, high, open[f] < kDeep});
+      sides.push_back({low, high, open[f] < kDeep ? 1U : 0U});
     }
   }
   std::ranges::sort(sides);
   Components borders(mesh.vertices.size());
   std::vector<std::uint32_t> ends;
   for (std::size_t k = 0; k + 1 < sides.size(); ++k) {
-    const Side& a = sides[k];
-    const Side& b = sides[k + 1];
-    if (a.low != b.low || a.high != b.high || a.deep == b.deep) continue;
-    borders.unite(a.low, a.high);
-    ends.push_back(a.low);
+    const auto& [low, high, deep] = sides[k];
+    const auto& [next_low, next_high, next_deep] = sides[k + 1];
+    if (low != next_low || high != next_high || deep == next_deep) continue;
+    borders.unite(low, high);
+    ends.push_back(low);
   }
   std::vector<std::size_t> edges(mesh.vertices.size(), 0);
   for (const std::uint32_t end : ends) ++edges[borders.of(end)];
