@@ -20,7 +20,7 @@ namespace rejoin::batch {
 inline constexpr const char* kCacheName = "fragments";
 
 /// Loads the fragment's surface for matching: the one kept under `cache` if there is one, else from its scan, whose surface is then
-/// kept (Draco, named after the content's hash).  What is matched is always the kept surface, so that the first run and later ones give
+/// kept (Draco, named after the content's hash and the matcher's; those of other builds go, but stand for a scan that is gone).  What is matched is always the kept surface, so that the first run and later ones give
 /// the same bytes.  Facets are as the user painted them, where that is kept.
 /// \param cache  folder, made if it is not there
 /// \throws InputError, IoError the scan cannot be used, or is no longer of the fragment's hash   \throws StoreError the cache cannot be written
