@@ -23,12 +23,12 @@
 namespace rejoin::cli {
 namespace {
 
-/// How many parts of an object there would be without its weak joins.
+/// How many parts of an object there would be without the joins that are not sure.
 std::size_t firm_parts(const outline::Assembly& assembly, std::size_t group) {
   std::vector<std::size_t> parts(assembly.placements.size());
   std::iota(parts.begin(), parts.end(), std::size_t{0});
   for (const outline::AssemblyJoin& join : assembly.joins)
-    if (join.score >= kUnsureScore)
+    if (join.score >= outline::kSureScore)
       std::ranges::replace(parts, std::size_t{parts[join.b]}, std::size_t{parts[join.a]});
   std::set<std::size_t> distinct;
   for (std::size_t i = 0; i < parts.size(); ++i)
@@ -60,8 +60,9 @@ std::string summary(const std::vector<outline::Piece>& pieces, const outline::As
     const std::size_t parts = firm_parts(assembly, group);
     text += fmt::format("  object {}: {} pieces", group + 1, sizes[group]);
     if (parts > 1)
-      text += fmt::format(", of which {} parts hold together by joins with scores below {} alone", parts,
-                          kUnsureScore);
+      text +=
+          fmt::format(", of which {} parts hold together by joins alone that are not sure (scores below {})",
+                      parts, outline::kSureScore);
     text += "\n";
   }
   for (const std::size_t piece : assembly.unplaced)

@@ -26,6 +26,8 @@ constexpr double kSameTurn = 0.05;
 constexpr double kSameShift = 0.04;
 // What holds a part of a group to the rest, nats.
 constexpr double kLeastJoin = 2.0;
+// Of the contacts' information, beside the candidates' evidence, which knows most of it.
+constexpr double kOfContacts = 0.3;
 // Pieces that share less than this, or face each other over less, only touch, as corners do; steps.
 constexpr double kShortestJoin = 8.0;
 
@@ -33,9 +35,18 @@ constexpr double kShortestJoin = 8.0;
 struct Bundle {
   std::size_t first = 0;
   std::size_t second = 0;
-  Planar moved;  // second -> first
+  Planar moved;              // second -> first
+  double evidence = 0.0;     // of the search for pairs, see evidence_of()
+  double information = 0.0;  // of the contacts, nats
+  std::size_t seed = 0;      // the link that it is made around
+
+  double strength() const { return evidence + kOfContacts * information; }
+};
+
+/// The most that one of two pieces' links in a bundle tells.
+struct Told {
+  double evidence = 0.0;
   double information = 0.0;
-  std::size_t seed = 0;  // the link that it is made around
 };
 
 class Assembler {
@@ -98,7 +109,7 @@ class Assembler {
       bundles.insert(bundles.end(), known->second.begin(), known->second.end());
     }
     std::stable_sort(bundles.begin(), bundles.end(),
-                     [](const Bundle& p, const Bundle& q) { return p.information > q.information; });
+                     [](const Bundle& p, const Bundle& q) { return p.strength() > q.strength(); });
     return bundles;
   }
 
@@ -118,21 +129,25 @@ class Assembler {
     }
     for (std::size_t k = 0; k < indices.size(); ++k) {
       const Link& seed = links_[indices[k]];
-      Bundle bundle{first, second, moves[k], 0.0, indices[k]};
+      Bundle bundle{first, second, moves[k], 0.0, 0.0, indices[k]};
       const std::size_t piece = layout_.group(seed.a) == second ? seed.a : seed.b;
       const Silhouette& shape = shapes_[piece];
       const glm::dvec2 centre = layout_.pose(piece)(0.5 * (shape.low + shape.high));
       const double reach = kSameShift * glm::distance(shape.low, shape.high);
       const glm::dvec2 there = motions[k](centre);
-      std::map<std::pair<std::size_t, std::size_t>, double> best;
+      std::map<std::pair<std::size_t, std::size_t>, Told> told;
       for (std::size_t other = 0; other < indices.size(); ++other) {
         if (glm::distance(there, motions[other](centre)) >= reach) continue;
         if (angle_between(moves[k], moves[other]) >= kSameTurn) continue;
         const Link& link = links_[indices[other]];
-        double& value = best[{link.a, link.b}];
-        value = std::max(value, link.information);
+        Told& most = told[{link.a, link.b}];
+        most.evidence = std::max(most.evidence, detail::evidence_of(link.score));
+        most.information = std::max(most.information, link.information);
       }
-      for (const auto& [pair, value] : best) bundle.information += value;
+      for (const auto& [pair, most] : told) {
+        bundle.evidence += most.evidence;
+        bundle.information += most.information;
+      }
       bundles.push_back(bundle);
     }
     return bundles;
@@ -154,11 +169,10 @@ class Assembler {
     std::vector<PlacedContact> across;
     for (const PlacedContact& c : trial.contacts_within(bundle.first))
       if (layout_.group(c.a) != layout_.group(c.b)) across.push_back(c);
-    double information = 0.0;
-    for (const PlacedContact& c : across) information += c.contact.information;
-    // Settled contacts of short joins say little at the scale of the whole; what the search for pairs is sure of needs no more.
-    const bool enough = information >= options_.least_information || links_[bundle.seed].score >= kSureScore;
-    if (!enough || across.empty() || !hold(across)) return false;
+    Bundle settled = bundle;
+    settled.information = 0.0;
+    for (const PlacedContact& c : across) settled.information += c.contact.information;
+    if (settled.strength() < options_.least_strength || across.empty() || !hold(across)) return false;
     layout_ = std::move(trial);
     return true;
   }
@@ -191,14 +205,15 @@ class Assembler {
   /// Looks for a refused bundle that says more than what holds the pieces in its way, takes these off and joins it.
   bool resolve_one_conflict(const Context& context) {
     for (const Bundle& bundle : sorted_bundles()) {
-      if (context.cancelled() || bundle.information < options_.least_information) return false;
+      if (context.cancelled() || bundle.strength() < options_.least_strength) return false;
       const std::set<std::size_t> in_the_way = cheaper_obstacles(bundle);
       if (in_the_way.empty()) continue;
       Layout before = layout_;
       for (const std::size_t piece : in_the_way) layout_.take_off(piece);
       const Link& seed = links_[bundle.seed];
       const std::size_t first = layout_.group(seed.a);
-      Bundle again{first, layout_.group(seed.b), motion(seed, first), bundle.information, bundle.seed};
+      Bundle again{first,           layout_.group(seed.b), motion(seed, first),
+                   bundle.evidence, bundle.information,    bundle.seed};
       if (again.first != again.second && try_merge(again)) {
         for (const std::size_t piece : in_the_way) layout_.take_off(piece);
         for (std::size_t g = 0; g < layout_.size(); ++g)

@@ -14,8 +14,10 @@ struct AssemblyOptions {
   std::vector<double> samples = {640.0, 240.0,
                                  100.0};  ///< steps of a border of median length, a number for each
                                           ///< scale; the one that fits the joins best is used
-  double least_information = 12.0;        ///< that joins a group to another without a sure candidate, nats
-  double most_intrusion = 0.3;            ///< border deep inside another piece, share of the contact's length
+  double least_strength =
+      8.0;  ///< that joins a group to another, nats: evidence of the candidates that agree, as odds
+            ///< by their scores, and 0.3 of the contacts' information
+  double most_intrusion = 0.3;  ///< border deep inside another piece, share of the contact's length
 };
 
 /// Where a piece lies.

@@ -35,6 +35,8 @@ struct Side {
   double pairs = 0.0;        // of samples a lag apart
   double changes = 0.0;      // squared change of a's own direction over the lag, of all pairs
   double fourth = 0.0;       // of the changes' squares, summed up
+  double turns = 0.0;        // squared sine of the change over a lag, of neighbouring lags
+  double going_on = 0.0;     // product of these neighbours' sines
   double differences = 0.0;  // squared difference of direction to the other border
   double intruding = 0.0;    // file units
   double squares = 0.0;
@@ -76,6 +78,12 @@ void add_ring(const Silhouette& a, const Ring& ring, const Silhouette& b, const 
     const double change = 2.0 * (1.0 - glm::dot(a.normals[ring.begin + i], a.normals[ring.begin + next]));
     side.changes += change;
     side.fourth += change * change;
+    const std::size_t beyond = (next + kLag) % count;
+    if (touching[beyond] == 0) continue;
+    const double turn = cross(a.normals[ring.begin + i], a.normals[ring.begin + next]);
+    const double after = cross(a.normals[ring.begin + next], a.normals[ring.begin + beyond]);
+    side.turns += 0.5 * (turn * turn + after * after);
+    side.going_on += turn * after;
   }
 }
 
@@ -86,6 +94,12 @@ Side measure_side(const Silhouette& a, const Silhouette& b, const Planar& a_to_b
   return side;
 }
 
+/// A smooth border goes on turning as it did: of its samples few tell something new, by the turning's autocorrelation.
+double independent_share(const Side& side) {
+  const double correlation = side.turns > 0.0 ? std::clamp(side.going_on / side.turns, 0.0, 1.0) : 0.0;
+  return (1.0 - correlation) / (1.0 + correlation);
+}
+
 double information(const Side& side) {
   if (side.pairs <= 0.0) return 0.0;
   const double changes = side.changes / side.pairs + kFloor;
@@ -93,7 +107,8 @@ double information(const Side& side) {
   const double carrying =
       side.fourth > 0.0 ? std::min(1.0, kCarrying * side.changes * side.changes / side.fourth / side.pairs)
                         : 1.0;
-  return std::max(0.0, 0.5 * carrying * side.count / kStepsADirection * std::log(changes / differences));
+  return std::max(0.0, 0.5 * carrying * independent_share(side) * side.count / kStepsADirection *
+                           std::log(changes / differences));
 }
 
 /// The outer border and the holes that have a shape at the scale.

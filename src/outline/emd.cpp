@@ -25,8 +25,9 @@ constexpr int kMostSolved = 4;
 constexpr std::size_t kShortest = 6;
 // A join in which more of a border than this share of the contact lies deep in the other piece is none.
 constexpr double kMostIntrusion = 0.25;
-// Information, in nats, at which the score is a half.
-constexpr double kHalfScore = 20.0;
+// Information, in nats, at which the score is a half, and what makes the odds e times as good.
+constexpr double kEvenInformation = 12.0;
+constexpr double kInformationScale = 1.5;
 // Candidates turned and shifted by less than this are one: radians, steps of the coarser scale.
 constexpr double kSameTurn = 0.05;
 constexpr double kSameShift = 6.0;
@@ -120,8 +121,8 @@ class EmdMatcher final : public Matcher {
     candidate.pose = settle(a.silhouette, b.silhouette, candidate.pose, 2.0 * kTolerance * step, 4);
     candidate.pose = settle(a.silhouette, b.silhouette, candidate.pose, kTolerance * step, 4);
     const Contact contact = measure_contact(a.silhouette, b.silhouette, candidate.pose, kTolerance * step);
-    if (contact.intrusion > kMostIntrusion * contact.length) return candidate;
-    candidate.score = contact.information / (contact.information + kHalfScore);
+    if (contact.information <= 0.0 || contact.intrusion > kMostIntrusion * contact.length) return candidate;
+    candidate.score = 1.0 / (1.0 + std::exp((kEvenInformation - contact.information) / kInformationScale));
     candidate.boundary = boundary(a.forward, b.backward, stretch);
     if (measure_ == Measure::EarthMover) candidate.boundary = grown(a, b, candidate);
     return candidate;

@@ -89,18 +89,39 @@ TEST(Assembly, RefusesAJoinThatMakesPiecesOverlap) {
   EXPECT_LT(misplaced(board, assembly, 0, 2), 0.5);
 }
 
-TEST(Assembly, JoinsWhatThePairsSearchIsSureOfHoweverLittleTheContactSays) {
+TEST(Assembly, PiecesThatFitNeedTheSearchToSaySo) {
   const planted::Board board = planted::broken_board(2, 1, 0.05, 43);
   std::vector<PairResult> pairs(1);
   JoinCandidate candidate;
   candidate.pose = inverse(board.poses[0]) * board.poses[1];
   AssemblyOptions options;
-  options.least_information = 1e9;
-  for (const auto& [score, unplaced] : {std::pair(0.6, 2U), std::pair(0.8, 0U)}) {
+  options.least_strength = 30.0;
+  for (const auto& [score, unplaced] : {std::pair(0.1, 2U), std::pair(0.999999, 0U)}) {
     candidate.score = score;
     pairs[0].candidates = {candidate};
     EXPECT_EQ(assemble(board.pieces, pairs, options, Context()).unplaced.size(), unplaced) << score;
   }
+}
+
+TEST(Assembly, WeakCandidatesThatAgreeJoinAPieceThatOneAloneDoesNot) {
+  const planted::Board board = planted::broken_board(2, 2, 0.05, 44);
+  const auto candidate = [&](std::size_t a, std::size_t b, double score) {
+    JoinCandidate join;
+    join.pose = inverse(board.poses[a]) * board.poses[b];
+    join.score = score;
+    return PairResult{{join}};
+  };
+  std::vector<PairResult> pairs(6);  // (0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)
+  AssemblyOptions options;
+  options.least_strength = 30.0;
+  pairs[0] = candidate(0, 1, 1.0);
+  pairs[1] = candidate(0, 2, 1.0);
+  pairs[4] = candidate(1, 3, 0.7);
+  EXPECT_EQ(assemble(board.pieces, pairs, options, Context()).unplaced, std::vector<std::size_t>{3});
+  pairs[5] = candidate(2, 3, 0.7);
+  const Assembly assembly = assemble(board.pieces, pairs, options, Context());
+  EXPECT_TRUE(assembly.unplaced.empty());
+  EXPECT_LT(misplaced(board, assembly, 0, 3), 0.5);
 }
 
 TEST(Assembly, GivesAJoinTheScoreOfItsPairAndAPieceTheChanceThatOneIsTrue) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+#include <vector>
+
 #include "outline/property_plot.hpp"
 
 namespace rejoin::outline {
@@ -32,6 +35,30 @@ TEST(Contact, StraightBordersBesideACornerSayNoMoreForTheirLength) {
   };
   EXPECT_GT(told(100.0), 0.0);
   EXPECT_LE(told(400.0), told(100.0));
+}
+
+/// The upper and the lower half of a disc that a smooth wave parts.
+std::pair<Outline, Outline> parted_by_a_wave() {
+  std::vector<glm::dvec2> wave;
+  for (int x = -200; x <= 200; ++x)
+    wave.emplace_back(x, 12.0 * std::sin(x / 25.0) + 7.0 * std::cos(x / 41.0));
+  std::pair<Outline, Outline> halves;
+  auto& [above, below] = halves;
+  above.points = wave;
+  above.points.insert(above.points.end(), {{200.0, 150.0}, {-200.0, 150.0}});
+  below.points.assign(wave.rbegin(), wave.rend());
+  below.points.insert(below.points.end(), {{-200.0, -150.0}, {200.0, -150.0}});
+  return halves;
+}
+
+TEST(Contact, ASmoothBorderSaysNoMoreForItsSamples) {
+  const auto [above, below] = parted_by_a_wave();
+  const auto told = [&](double step) {
+    return measure_contact(Silhouette(above, step, 1.0), Silhouette(below, step, 1.0), {}, 1.5 * step)
+        .information;
+  };
+  EXPECT_GT(told(4.0), 3.0);
+  EXPECT_LT(told(0.5), told(4.0));
 }
 
 TEST(DistanceField, IsTheDistanceToACircle) {

@@ -1,6 +1,7 @@
 #include "outline/detail/links.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <utility>
@@ -14,12 +15,18 @@ namespace {
 constexpr double kTolerance = 1.5;
 // Candidates of a pair that are considered.
 constexpr std::size_t kCandidates = 4;
-// Candidates that say less than this are noise, nats.
-constexpr double kLeastHint = 1.5;
+// Candidates of less than this score are noise.
+constexpr double kLeastScore = 0.02;
+// The score of a candidate that says nothing; see score_of().
+constexpr double kIdleScore = 0.0034;
 // A piece in a hole: whatever has about the hole's size follows its border round somehow, and mostly no other join tells more.
 // So the search must find it likely, or this share of the piece's border must touch the hole's.
 constexpr double kLeastInHole = 0.3;
 constexpr double kLeastTouching = 0.9;
+
+double log_odds(double score) {
+  return std::log(score) - std::log1p(-score);
+}
 
 /// Whether a candidate that lays one piece into a hole of the other may be used; true for all others.
 bool fills_hole(const JoinCandidate& candidate, const Silhouette& a, const Silhouette& b,
@@ -57,7 +64,7 @@ std::vector<Link> links_at(const std::vector<Silhouette>& shapes, const std::vec
         const Planar pose = settle(shapes[a], shapes[b], pairs[i].candidates[k].pose, tolerance, 3);
         const Contact contact = measure_contact(shapes[a], shapes[b], pose, tolerance);
         const double score = pairs[i].candidates[k].score;
-        if (contact.information < kLeastHint && score < kSureScore) continue;
+        if (score < kLeastScore) continue;
         if (contact.intrusion > options.most_intrusion * contact.length) continue;
         if (!fills_hole(pairs[i].candidates[k], shapes[a], shapes[b], contact)) continue;
         found[i].push_back({a, b, pose, contact.information, contact.length, score});
@@ -113,6 +120,10 @@ double fitting_step(const std::vector<Piece>& pieces, const std::vector<PairResu
 }
 
 }  // namespace
+
+double evidence_of(double score) {
+  return log_odds(std::clamp(score, kIdleScore, 1.0 - 1e-12)) - log_odds(kIdleScore);
+}
 
 LinkedPieces link_pieces(const std::vector<Piece>& pieces, const std::vector<PairResult>& pairs,
                          const AssemblyOptions& options) {

@@ -14,10 +14,14 @@ struct Link {
   std::size_t a;
   std::size_t b;
   Planar pose;         ///< b -> a
-  double information;  ///< nats
+  double information;  ///< of the contact, nats
   double length;       ///< of the contact, file units
   double score;        ///< of the candidate, by the search for pairs
 };
+
+/// How many times likelier a join is by a candidate of this score than by one that says nothing, natural logarithm; >= 0.  It adds up
+/// over candidates of several pairs that agree.
+double evidence_of(double score);
 
 /// Pieces and their links at one scale.
 struct LinkedPieces {
