@@ -52,9 +52,10 @@ std::pair<Outline, Outline> parted_by_a_wave() {
 }
 
 TEST(Contact, ASmoothBorderSaysNoMoreForItsSamples) {
-  const auto [above, below] = parted_by_a_wave();
+  const std::pair<Outline, Outline> halves = parted_by_a_wave();
   const auto told = [&](double step) {
-    return measure_contact(Silhouette(above, step, 1.0), Silhouette(below, step, 1.0), {}, 1.5 * step)
+    return measure_contact(Silhouette(halves.first, step, 1.0), Silhouette(halves.second, step, 1.0), {},
+                           1.5 * step)
         .information;
   };
   EXPECT_GT(told(4.0), 3.0);
