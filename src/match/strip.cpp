@@ -1,7 +1,9 @@
 #include "match/strip.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 
 #include "core/median.hpp"
 
@@ -20,6 +22,9 @@ constexpr int kWidthRounds = 4;
 constexpr double kAstray = 0.25;  // radians, by which stretches that join may be turned
 constexpr double kApart = 0.5;    // of the mean width, by which their bends may part at their ends
 
+constexpr double kHole = 0.25;  // of the mean width: radius about the middle in which a ring has nothing
+constexpr std::size_t kSectors = 12;  // around the middle of a break that runs all around, as a tube's does
+
 /// The course of a stretch: v = bow * u^2 in axes turned by `direction`.
 struct Course {
   double direction = 0;  ///< radians, against x; its opposite is the same
@@ -28,6 +33,21 @@ struct Course {
 
 bool is_strip(const FacetPatch& patch) {
   return patch.length > kElongated * patch.across;
+}
+
+/// Whether a facet surrounds its middle without lying there: a ring has stretches of every direction, and others on the far side of a narrow one.
+bool runs_around(const FacetPatch& patch) {
+  glm::dvec2 middle(0.0);
+  for (const glm::vec3& point : patch.points)
+    middle += glm::dvec2(point) / static_cast<double>(patch.points.size());
+  std::array<bool, kSectors> seen{};
+  for (const glm::vec3& point : patch.points) {
+    const glm::dvec2 from = glm::dvec2(point) - middle;
+    if (glm::length(from) < kHole * patch.across) return false;
+    const double part = std::atan2(from.y, from.x) / (2.0 * kPi) + 0.5;
+    seen[std::min(kSectors - 1, static_cast<std::size_t>(part * kSectors))] = true;
+  }
+  return std::ranges::all_of(seen, std::identity());
 }
 
 /// The points of a stretch, relative to their mean.
@@ -84,7 +104,7 @@ std::vector<Course> courses(const FacetPatch& strip, double length) {
 
 void measure_across(FacetPatch& patch) {
   patch.across = patch.area / std::max(patch.length, 1e-30);
-  if (!is_strip(patch) || patch.points.empty()) return;
+  if (patch.points.empty() || (!is_strip(patch) && !runs_around(patch))) return;
   const std::size_t step = patch.points.size() / kPointsAsked + 1;
   std::vector<glm::vec2> points;
   for (std::size_t k = 0; k < patch.points.size(); k += step) points.emplace_back(patch.points[k]);
@@ -117,7 +137,8 @@ std::vector<double> turns_along(const FacetPatch& a, const FacetPatch& b, double
   const double alike = kApart * wide / (0.25 * length * length);
   const int count = static_cast<int>(std::ceil(2.0 * kPi / step));
   const double turn = 2.0 * kPi / count;
-  std::vector<char> wanted(static_cast<std::size_t>(count), 0);
+  const bool any = runs_around(a) || runs_around(b);
+  std::vector<char> wanted(static_cast<std::size_t>(count), any ? 1 : 0);
   const std::vector<Course> of_b = courses(b, length);
   for (const Course& x : courses(a, length)) {
     for (const Course& y : of_b) {

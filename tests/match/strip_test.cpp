@@ -96,5 +96,32 @@ TEST(Strip, StraightBreaksAreLaidAlongEachOtherEitherWayOnly) {
   EXPECT_TRUE(std::is_sorted(turns.begin(), turns.end()));
 }
 
+TEST(Strip, ABreakAllAroundATubeIsAsWideAsItsWall) {
+  std::vector<glm::vec3> points;
+  for (int degree = 0; degree < 360; ++degree) {
+    for (const double radius : {10.0, 11.0, 12.0, 13.0, 14.0})
+      points.emplace_back(radius * std::cos(degree * kDegree), radius * std::sin(degree * kDegree), 0.0);
+  }
+  FacetPatch ring = strip_of(points);
+  ring.area = kPi * (14.0 * 14.0 - 10.0 * 10.0);
+  measure_across(ring);
+  EXPECT_NEAR(ring.across, 4.0, 0.6);
+}
+
+TEST(Strip, ABreakAllAroundATubeMayLieAnyWay) {
+  std::vector<glm::vec3> oval;
+  for (int degree = 0; degree < 360; ++degree) {
+    for (const double across : {-2.0, -1.0, 0.0, 1.0, 2.0})
+      oval.emplace_back((22.0 + across) * std::cos(degree * kDegree),
+                        (10.0 + across) * std::sin(degree * kDegree), 0.0);
+  }
+  FacetPatch ring = strip_of(oval);
+  ring.area = 420.0;
+  measure_across(ring);
+  ASSERT_TRUE(are_strips(ring, ring));
+  const auto turns = turns_along(ring, ring, kStep);
+  for (int degree = 0; degree < 360; ++degree) EXPECT_LE(missed_by(turns, degree * kDegree), kStep) << degree;
+}
+
 }  // namespace
 }  // namespace rejoin::match
