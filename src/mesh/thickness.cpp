@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/median.hpp"
 #include "core/parallel.hpp"
+#include "core/rigid.hpp"
 #include "mesh/ray_scene.hpp"
 
 namespace rejoin::mesh {
@@ -23,8 +25,15 @@ constexpr double kLeastParallel = 0.2;  // of a thin piece's surface: cracks of 
 constexpr double kLeastSmooth = 0.15;   // of the surface of a sherd with smooth walls is parallel
 constexpr double kSlab = 0.7;           // of the squares of its normals lie along one direction
 constexpr float kSmooth = 0.5F;         // roughness of such walls, of that of the rest, at most
-constexpr double kEvenLow = 0.8;        // of the thickness
+constexpr double kNearLow = 0.6;        // of the thickness
+constexpr double kNearHigh = 1.6;
+constexpr double kEvenLow = 0.8;  // the same of walls that run parallel
 constexpr double kEvenHigh = 1.25;
+constexpr std::size_t kAskedAcross = 16;  // every so manyth sample
+constexpr int kWays = 8;                  // across the piece, half a turn in all
+constexpr double kRodAcross =
+    2.3;  // thicknesses; sherds are wider, and tubes from place to place along their wall
+constexpr double kRodLong = 4.0;  // times as long as wide: small sherds may be as narrow
 
 /// Share of the normals' squares along the direction, or its opposite, in which most of them point: 1 of a slab, 0.5 of a rod.
 double share_along_one(const std::vector<bool>& chosen, const std::vector<glm::vec3>& normals) {
@@ -48,6 +57,37 @@ float between(const std::vector<bool>& parallel, const std::vector<float>& rough
   return std::max(std::sqrt(smooth * rough), kSmooth * kSmooth * rough);  // of planes the first is nought
 }
 
+/// The shortest chord of the body at right angles to a normal.
+/// \param middle  of the body, under the sample that has the normal
+float shortest_across(const RayScene& scene, const glm::vec3& middle, const glm::vec3& normal) {
+  const glm::dmat3 frame = frame_of(glm::dvec3(normal));
+  float shortest = std::numeric_limits<float>::infinity();
+  for (int way = 0; way < kWays; ++way) {
+    const double angle = std::numbers::pi * way / kWays;
+    const glm::vec3 direction(frame * glm::dvec3(std::cos(angle), std::sin(angle), 0.0));
+    float chord = 0.0F;
+    for (const glm::vec3& along : {direction, -direction}) {
+      const auto hit = scene.first_hit(middle, along, 0.0F, std::numeric_limits<float>::max());
+      chord += hit ? hit->distance : std::numeric_limits<float>::infinity();
+    }
+    shortest = std::min(shortest, chord);
+  }
+  return shortest;
+}
+
+/// Whether the piece is a rod, as a rib or a rod of wood is: hardly wider than thick, and long.
+bool is_rod(const InwardRays& rays, double thickness, double size) {
+  std::vector<float> across;
+  for (std::size_t i = 0; i < rays.across.size(); ++i) {
+    const double ratio = static_cast<double>(rays.length[i * kAskedAcross]) / thickness;
+    if (rays.square[i * kAskedAcross] > kSquare && ratio > kNearLow && ratio < kNearHigh)
+      across.push_back(rays.across[i]);
+  }
+  if (across.empty()) return false;
+  const auto width = static_cast<double>(median(across));
+  return width < kRodAcross * thickness && size > kRodLong * width;
+}
+
 }  // namespace
 
 InwardRays cast_inwards(const Mesh& mesh, const Samples& samples, const std::vector<glm::vec3>& normals) {
@@ -56,6 +96,8 @@ InwardRays cast_inwards(const Mesh& mesh, const Samples& samples, const std::vec
   InwardRays rays;
   rays.length.assign(samples.size(), std::numeric_limits<float>::infinity());
   rays.square.assign(samples.size(), 0.0F);
+  rays.across.assign((samples.size() + kAskedAcross - 1) / kAskedAcross,
+                     std::numeric_limits<float>::infinity());
   const auto skip = static_cast<float>(0.05 * samples.spacing);
   parallel_for(samples.size(), 256, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
@@ -73,6 +115,9 @@ InwardRays cast_inwards(const Mesh& mesh, const Samples& samples, const std::vec
         }
         from = hit->distance + skip;
       }
+      if (i % kAskedAcross == 0 && rays.square[i] > kSquare)
+        rays.across[i / kAskedAcross] =
+            shortest_across(scene, samples.points[i] + 0.5F * rays.length[i] * inwards, normals[i]);
     }
   });
   return rays;
@@ -103,7 +148,7 @@ Walls find_walls(const InwardRays& rays, const std::vector<glm::vec3>& normals,
   std::vector<bool> is_parallel(rays.length.size(), false);
   for (std::size_t i = 0; i < rays.length.size(); ++i) {
     const double ratio = static_cast<double>(rays.length[i]) / guess;
-    if (rays.square[i] > kSquare && ratio > 0.6 && ratio < 1.6) near.push_back(rays.length[i]);
+    if (rays.square[i] > kSquare && ratio > kNearLow && ratio < kNearHigh) near.push_back(rays.length[i]);
     if (rays.square[i] <= kParallel) continue;
     const bool even = ratio > kEvenLow && ratio < kEvenHigh;
     const bool anyhow = static_cast<double>(rays.length[i]) < kEvenHigh * kMostOfSherd * size;
@@ -127,7 +172,9 @@ Walls find_walls(const InwardRays& rays, const std::vector<glm::vec3>& normals,
   }
   const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
   std::nth_element(near.begin(), middle, near.end());
-  walls.thickness = static_cast<double>(*middle);
+  const auto thickness = static_cast<double>(*middle);
+  if (is_rod(rays, thickness, size)) return {};
+  walls.thickness = thickness;
   return walls;
 }
 

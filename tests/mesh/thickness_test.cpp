@@ -23,6 +23,17 @@ TEST(Thickness, PlateHasItsThickness) {
   EXPECT_NEAR(segment(box({60, 50, 4}, 30, flat)).wall_thickness, 4.0, 0.1);
 }
 
+// A rib, say: hardly wider than thick.
+TEST(Thickness, RodHasNoWallAndANarrowSherdHasOne) {
+  const auto bent = [](float width) {
+    Mesh piece = box({70, width, 4.5F}, 70, flat);
+    for (glm::vec3& v : piece.vertices) v.z += 0.004F * (v.x - 35.0F) * (v.x - 35.0F);
+    return segment(piece).wall_thickness;
+  };
+  EXPECT_EQ(bent(9.0F), 0.0);
+  EXPECT_NEAR(bent(14.0F), 4.5, 0.3);
+}
+
 // Its faces are parallel over most of it and run out into an edge.
 TEST(Thickness, StruckFlakeHasNoWall) {
   Mesh flake = box({60, 40, 5}, 40, flat);
@@ -114,7 +125,7 @@ TEST(Thickness, WallsOfASmallSherdAreSmoothAndAboutFlat) {
 }
 
 TEST(Thickness, SheetThinnerThanAllThatIsCountedHasNoWall) {
-  EXPECT_EQ(thickness_of({std::vector<float>(1000, 0.001F), std::vector<float>(1000, 1.0F)}), 0.0);
+  EXPECT_EQ(thickness_of({std::vector<float>(1000, 0.001F), std::vector<float>(1000, 1.0F), {}}), 0.0);
 }
 
 /// A brick with broken sides: their relief of 0.6 lies in the plane of the walls.
