@@ -57,6 +57,7 @@ struct Fragment {
       coarse;  ///< a level of detail for depth maps: at most 40,000 faces; of a noisy scan smoothed, of a porous one without pores
   mesh::Segmentation facets;  ///< of `surface`, of a noisy scan smoothed, of a porous one without pores
   double diameter = 0;        ///< mesh units
+  double least_extent = 0;    ///< along the axis along which it spreads least, mesh units
   double resolution = 0;      ///< sample spacing, mesh units
   double noise = 0;           ///< of the scan, mesh units (mesh/noise.hpp)
   double noise_left = 0;      ///< of it, in `coarse` and `facets` of a noisy scan, mesh units; else 0
@@ -88,7 +89,8 @@ inline double joint_ruler(const Fragment& a, const Fragment& b) {
 }
 
 /// Spacing of the sparser of both samples by which joints are judged, mesh units.  A solid piece with samples more than three times as far
-/// apart as the other one's, of which it would see too little, is sampled more densely for that.
+/// apart as the other one's, of which it would see too little, is sampled more densely for that; so is a long one, of whose breaks it
+/// would, down to a thirtieth of the slimmer piece's least extent or the scans' resolution.
 double samples_spacing(const Fragment& a, const Fragment& b);
 
 /// Distance below which surfaces touch, mesh units: a twentieth of joint_ruler() (of solid pieces a share of the samples'

@@ -109,13 +109,16 @@ void doubt_table(Fragment& fragment) {
 }  // namespace
 
 double samples_spacing(const Fragment& a, const Fragment& b) {
-  constexpr double kUnlike =
-      3.0;  // what the small piece's patches of relief bear, at which nothing is sampled anew
+  // What the small piece's patches of relief bear, at which nothing is sampled anew.
+  constexpr double kUnlike = 3.0;
   constexpr double kDenser = 4.0;  // at most: sixteen times the samples
+  // Samples across the slimmer piece: the breaks of a long bone are as small.
+  constexpr double kAcross = 30.0;
   const auto [fine, coarse] = std::minmax(a.facets.samples.spacing, b.facets.samples.spacing);
-  const bool noisy = a.noise_left > 0 || b.noise_left > 0;
-  const bool thin = a.facets.wall_thickness > 0 || b.facets.wall_thickness > 0;
-  return noisy || thin ? coarse : std::clamp(kUnlike * fine, coarse / kDenser, coarse);
+  if (a.noise_left > 0 || b.noise_left > 0 || both_thin(a, b)) return coarse;
+  const double slim = std::min(a.least_extent, b.least_extent) / kAcross;
+  const double scan = std::max(a.resolution, b.resolution);
+  return std::clamp(std::min(kUnlike * fine, std::max(slim, scan)), coarse / kDenser, coarse);
 }
 
 double contact_tolerance(const Fragment& a, const Fragment& b) {
@@ -160,6 +163,7 @@ Fragment prepare(std::string path, mesh::Mesh scan, const Context& context) {
   fragment.middle = view_centre(fragment.coarse);
   clock.lap("coarse");
   fragment.facets = mesh::segment(matched, fragment.diameter);
+  fragment.least_extent = mesh::least_extent(fragment.facets.samples.points);
   fragment.sample_of_face = mesh::sample_of_faces(fragment.facets, fragment.coarse);
   if (open) tell_pores(fragment, open->share);
   doubt_coarse_walls(fragment);

@@ -297,27 +297,6 @@ detail::OpenWalls open_walls(const Mesh& mesh, const Segmentation& s, const List
   return detail::open_walls(mesh, all, detail::smallest_facet(s), wide);
 }
 
-/// Extent along the axis along which the points spread least.
-double least_extent(const std::vector<glm::vec3>& points) {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const glm::vec3& p : points) mean += Eigen::Vector3d(p.x, p.y, p.z);
-  mean /= static_cast<double>(points.size());
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const glm::vec3& p : points) {
-    const Eigen::Vector3d off = Eigen::Vector3d(p.x, p.y, p.z) - mean;
-    spread += off * off.transpose();
-  }
-  const Eigen::Vector3d axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
-  double low = 0.0;
-  double high = 0.0;
-  for (const glm::vec3& p : points) {
-    const double at = axis.dot(Eigen::Vector3d(p.x, p.y, p.z) - mean);
-    low = std::min(low, at);
-    high = std::max(high, at);
-  }
-  return high - low;
-}
-
 /// Whether what was taken for breaks hardly goes through what was taken for walls: the faces of a struck flake are parallel, too, but run out
 /// into sharp edges.
 bool is_flake(const Mesh& mesh, const Segmentation& s) {

@@ -1,5 +1,6 @@
 #include "mesh/mesh.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -83,6 +84,26 @@ Box bounds(std::span<const glm::vec3> points) {
 
 Box bounds(const Mesh& mesh) {
   return bounds(mesh.vertices);
+}
+
+double least_extent(std::span<const glm::vec3> points) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const glm::vec3& p : points) mean += Eigen::Vector3d(p.x, p.y, p.z);
+  mean /= static_cast<double>(points.size());
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const glm::vec3& p : points) {
+    const Eigen::Vector3d off = Eigen::Vector3d(p.x, p.y, p.z) - mean;
+    spread += off * off.transpose();
+  }
+  const Eigen::Vector3d axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
+  double low = 0.0;
+  double high = 0.0;
+  for (const glm::vec3& p : points) {
+    const double at = axis.dot(Eigen::Vector3d(p.x, p.y, p.z) - mean);
+    low = std::min(low, at);
+    high = std::max(high, at);
+  }
+  return high - low;
 }
 
 glm::dvec3 centroid(const Mesh& mesh) {

@@ -33,6 +33,9 @@ Box bounds(std::span<const glm::vec3> points);
 /// Box of all vertices.  \pre the mesh has one
 Box bounds(const Mesh& mesh);
 
+/// Extent along the axis along which the points spread least.  \pre there is one
+double least_extent(std::span<const glm::vec3> points);
+
 /// Area-weighted centroid of the surface (of the points, for a cloud), relative to mesh.origin.
 glm::dvec3 centroid(const Mesh& mesh);
 

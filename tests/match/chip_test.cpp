@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <functional>
 
+#include "match/align.hpp"
+#include "match/evidence.hpp"
 #include "match/match.hpp"
 #include "planted_block.hpp"
 
@@ -72,6 +74,21 @@ TEST(Chip, JoinsABlockFiveTimesAsLarge) {
   ASSERT_FALSE(result.candidates.empty());
   const Rigid off = result.candidates.front().pose * to_chip;
   EXPECT_LT(glm::length(off(glm::dvec3(0, 0, -3)) - glm::dvec3(0, 0, -3)), 0.2);
+}
+
+// Two bars broken across: their small breaks have few of the samples of their long sides.
+TEST(Chip, ALongBarJoinsAsAShortOneDoes) {
+  const auto relief = [](double x, double y) {
+    return 0.5 * (std::sin(0.9 * x + 0.4 * y) * std::cos(0.7 * y - 0.3) + 0.6 * std::sin(1.7 * y + 0.5 * x) +
+                  0.5 * std::sin(1.3 * x));
+  };
+  const auto level = [](double z) { return [z](double, double) { return z; }; };
+  const auto strength_of = [&](double length) {
+    const Fragment lower = prepare("lower", between(level(-length), relief, 8, 40), Context{});
+    const Fragment upper = prepare("upper", between(relief, level(length), 8, 40), Context{});
+    return strength(Joint(lower, upper).evidence(Rigid{}, 0));
+  };
+  EXPECT_GT(strength_of(400), 0.3 * strength_of(30));
 }
 
 }  // namespace
