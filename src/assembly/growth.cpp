@@ -7,12 +7,18 @@
 namespace rejoin::assembly {
 
 std::size_t Grower::agreeing(const Growth& growth, std::size_t a, std::size_t b) const {
+  if (growth.group[a] != growth.group[b]) return links_.size();
+  return agreeing(a, b, inverse(growth.poses[a]) * growth.poses[b]);
+}
+
+/// Of two pieces that lie so.
+std::size_t Grower::agreeing(std::size_t a, std::size_t b, const Rigid& b_to_a) const {
   const auto found = links_of_.find(key_of(a, b));
-  if (found == links_of_.end() || growth.group[a] != growth.group[b]) return links_.size();
+  if (found == links_of_.end()) return links_.size();
   for (const std::size_t k : found->second) {
     const Link& l = links_[k];
-    const Rigid relative = inverse(growth.poses[l.a]) * growth.poses[l.b];
-    if (same_pose(pieces_[l.a], pieces_[l.b], l.pose, relative, options_)) return k;
+    if (same_pose(pieces_[l.a], pieces_[l.b], l.pose, l.a == a ? b_to_a : inverse(b_to_a), options_))
+      return k;
   }
   return links_.size();
 }
