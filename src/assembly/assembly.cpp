@@ -119,21 +119,23 @@ class Assembler {
   /// candidate may be false: put first, it would take true joins with it.
   void grow(Result& result, const Context& context) {
     growth_ = best_growth(grower_, options_, context);
+    const Growth unasked = growth_;
     std::vector<std::pair<std::size_t, std::size_t>> unmet;
-    for (bool more = true; more && !context.cancelled();) {
-      more = false;
-      for (const auto& pair : options_.constraints.must_join) {
-        if (std::find(unmet.begin(), unmet.end(), pair) != unmet.end() || joins(pair.first, pair.second))
-          continue;
-        unmet.push_back(pair);
-        more = true;
-      }
-      if (!more) return;
-      const Growth before = growth_;
+    while (!context.cancelled() && add_unmet(unmet)) {
       grower_.want(unmet);
       growth_ = best_growth(grower_, options_, context);
-      tell_given_up(before, result);
     }
+    if (!unmet.empty() && !context.cancelled()) tell_given_up(unasked, result);
+  }
+
+  /// Adds the pairs that must join and do not; false if there are no more.
+  bool add_unmet(std::vector<std::pair<std::size_t, std::size_t>>& unmet) const {
+    const std::size_t before = unmet.size();
+    for (const auto& pair : options_.constraints.must_join) {
+      if (std::find(unmet.begin(), unmet.end(), pair) == unmet.end() && !joins(pair.first, pair.second))
+        unmet.push_back(pair);
+    }
+    return unmet.size() > before;
   }
 
   /// Whether two pieces touch where they lie.
@@ -154,8 +156,9 @@ class Assembler {
   }
 
   /// Sure joins that had to go for pairs that must join.
-  void tell_given_up(const Growth& before, Result& result) const {
-    const std::vector<std::size_t> lost_before = grower_.unsatisfied(before);
+  /// \param unasked  grown without them
+  void tell_given_up(const Growth& unasked, Result& result) const {
+    const std::vector<std::size_t> lost_before = grower_.unsatisfied(unasked);
     for (const std::size_t link : grower_.unsatisfied(growth_)) {
       if (std::find(lost_before.begin(), lost_before.end(), link) != lost_before.end()) continue;
       result.warnings.push_back(

@@ -119,6 +119,30 @@ TEST(Constraints, PairsThatMustJoinAndDoAnyhowTakeNoOtherPose) {
   }));
 }
 
+TEST(Constraints, SureJoinsThatOtherWishesKeepAreNotToldAsLost) {
+  const auto touch = [](std::size_t a, std::size_t b) {
+    return std::ranges::any_of(ball().contacts,
+                               [&](const auto& c) { return std::minmax(c.a, c.b) == std::minmax(a, b); });
+  };
+  std::vector<Link> links = ball().all_true(0.999);
+  Options options;
+  for (std::size_t a = 0; a < ball().fragments.size() && options.constraints.must_join.empty(); ++a) {
+    for (std::size_t b = a + 1; b < ball().fragments.size(); ++b) {
+      const std::size_t c = a == 0 ? (b == 1 ? 2 : 1) : 0;
+      if (touch(a, b) || !touch(a, c) || !touch(b, c)) continue;
+      links.push_back(ball().false_link(a, b, 0.01, 10.0, 1.5));
+      options.constraints.must_join = {{a, b}, {a, c}, {b, c}};
+      break;
+    }
+  }
+  ASSERT_EQ(options.constraints.must_join.size(), 3U);
+  const Result result = run(ball(), links, options);
+  EXPECT_EQ(groups_of(result), std::set<int>{0});
+  const auto [a, b] = options.constraints.must_join.front();
+  EXPECT_EQ(result.warnings, std::vector<std::string>{fmt::format(
+                                 "{{{}}} and {{{}}} must join, but at none of their poses they fit", a, b)});
+}
+
 TEST(Constraints, AWishThatCannotBeKeptIsSaid) {
   const Corner corner = corner_of(ball());
   Options options;
