@@ -348,11 +348,14 @@ class Assembler {
 
   void tell_broken_wishes(Result& result) const {
     for (const auto& [a, b] : options_.constraints.must_join) {
-      if (touch_in(growth_, a, b)) continue;
-      result.warnings.push_back(
-          is_pinned(a) && is_pinned(b)
-              ? fmt::format("{{{}}} and {{{}}} must join, but do not touch at the poses given", a, b)
-              : fmt::format("{{{}}} and {{{}}} must join, but at none of their poses they fit", a, b));
+      if (touch_in(growth_, a, b)) {
+        tell_worse_pose(a, b, result);
+      } else {
+        result.warnings.push_back(
+            is_pinned(a) && is_pinned(b)
+                ? fmt::format("{{{}}} and {{{}}} must join, but do not touch at the poses given", a, b)
+                : fmt::format("{{{}}} and {{{}}} must join, but at none of their poses they fit", a, b));
+      }
     }
     for (const auto& [a, b] : options_.constraints.must_not_join) {
       if (growth_.group[a] != growth_.group[b] || !touch_forbidden(pieces_[a], pieces_[b], relative(a, b)))
@@ -363,6 +366,29 @@ class Assembler {
     const auto& pinned = options_.constraints.pinned;
     for (std::size_t i = 0; i < pinned.size(); ++i)
       for (std::size_t j = i + 1; j < pinned.size(); ++j) tell_of_given_poses(pinned[i], pinned[j], result);
+  }
+
+  /// Of a pair that must join, that its best pose does not fit.
+  void tell_worse_pose(std::size_t a, std::size_t b, Result& result) const {
+    const auto is_theirs = [&](std::size_t link) {
+      return key_of(links_[link].a, links_[link].b) == key_of(a, b);
+    };
+    const auto used = std::ranges::find_if(growth_.used, is_theirs);
+    if (used == growth_.used.end()) return;  // where other joins put them
+    const Rejection* better = nullptr;
+    double most = links_[*used].score;
+    for (const Rejection& rejection : growth_.rejected) {
+      if (!is_theirs(rejection.link) || rejection.why == Rejection::Why::Contradiction) continue;
+      if (links_[rejection.link].score <= most) continue;
+      most = links_[rejection.link].score;
+      better = &rejection;
+    }
+    if (better == nullptr) return;
+    result.warnings.push_back(fmt::format(
+        "{{{}}} and {{{}}} join at a pose of score {:.3f}, as at their best ({:.3f}) {{{}}} and {{{}}} would "
+        "{}",
+        a, b, links_[*used].score, most, better->a, better->b,
+        better->why == Rejection::Why::Overlap ? "lie in each other" : "touch, which must not join"));
   }
 
   /// Given poses are kept whatever they do.

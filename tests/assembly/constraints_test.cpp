@@ -98,7 +98,10 @@ TEST(Constraints, PairsThatMustJoinDoSoHoweverLowTheScore) {
   const Result result = run(ball(), weak, options);
   EXPECT_EQ(result.groups, 1);  // the better-scored pose overlaps, so the other is taken
   EXPECT_LT(ball().worst_turn(result), 0.5);
-  EXPECT_TRUE(result.warnings.empty());
+  EXPECT_EQ(result.warnings, std::vector<std::string>{
+                                 fmt::format("{0} join at a pose of score 0.010, as at their best (0.020) "
+                                             "{0} would lie in each other",
+                                             fmt::format("{{{}}} and {{{}}}", corner.a, corner.b))});
 }
 
 TEST(Constraints, PairsThatMustJoinAndDoAnyhowTakeNoOtherPose) {
