@@ -351,10 +351,7 @@ class Assembler {
       if (touch_in(growth_, a, b)) {
         tell_worse_pose(a, b, result);
       } else {
-        result.warnings.push_back(
-            is_pinned(a) && is_pinned(b)
-                ? fmt::format("{{{}}} and {{{}}} must join, but do not touch at the poses given", a, b)
-                : fmt::format("{{{}}} and {{{}}} must join, but at none of their poses they fit", a, b));
+        result.warnings.push_back(fmt::format("{{{}}} and {{{}}} must join, but {}", a, b, why_apart(a, b)));
       }
     }
     for (const auto& [a, b] : options_.constraints.must_not_join) {
@@ -366,6 +363,16 @@ class Assembler {
     const auto& pinned = options_.constraints.pinned;
     for (std::size_t i = 0; i < pinned.size(); ++i)
       for (std::size_t j = i + 1; j < pinned.size(); ++j) tell_of_given_poses(pinned[i], pinned[j], result);
+  }
+
+  /// Why a pair that must join does not.
+  std::string why_apart(std::size_t a, std::size_t b) const {
+    if (is_pinned(a) && is_pinned(b)) return "do not touch at the poses given";
+    if (std::ranges::any_of(links_, [&](const Link& l) { return key_of(l.a, l.b) == key_of(a, b); }))
+      return "at none of their poses they fit";
+    const auto why = options_.without_pose.find(key_of(a, b));
+    const std::string none = "no pose of the two is known";
+    return why == options_.without_pose.end() ? none : fmt::format("{}: {}", none, why->second);
   }
 
   /// Of a pair that must join, that its best pose does not fit.

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <system_error>
@@ -89,6 +90,9 @@ class AssembleCommand final : public Command {
     if (constraints) {
       AskedConstraints asked = read_constraints(*constraints, input.names, input.bad);
       options_.constraints = std::move(asked.constraints);
+      options_.without_pose = input.without_pose;
+      for (const auto& [a, b] : options_.constraints.must_join)
+        options_.without_pose.try_emplace(std::minmax(a, b), "they are not compared yet");
       input.left_out = std::move(asked.left_out);
     }
     const assembly::Result result = assembly::assemble(input.fragments, input.links, options_, context);

@@ -150,7 +150,14 @@ TEST(Constraints, AWishThatCannotBeKeptIsSaid) {
   const Corner corner = corner_of(ball());
   Options options;
   options.constraints.must_join = {{corner.a, corner.b}};
-  EXPECT_EQ(run(ball(), {}, options).warnings.size(), 1U);
+  const std::string wish = fmt::format("{{{}}} and {{{}}} must join, but ", corner.a, corner.b);
+  const auto warnings = [&](const std::vector<Link>& links) { return run(ball(), links, options).warnings; };
+  EXPECT_EQ(warnings({ball().inside_link(corner.a, corner.b, 0.9)}),
+            std::vector<std::string>{wish + "at none of their poses they fit"});
+  EXPECT_EQ(warnings({}), std::vector<std::string>{wish + "no pose of the two is known"});
+  options.without_pose[std::minmax(corner.a, corner.b)] = "they were never looked at";
+  EXPECT_EQ(warnings({}),
+            std::vector<std::string>{wish + "no pose of the two is known: they were never looked at"});
 }
 
 TEST(Constraints, PinnedPiecesStayWhereTheyAre) {

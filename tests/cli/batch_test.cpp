@@ -351,6 +351,27 @@ TEST_F(Batch, AssemblyOfAnUnfinishedRunSaysHowManyPairsAreMissing) {
       << reason("b7.ply");
 }
 
+TEST_F(Batch, PairThatMustJoinButHasNoPoseIsToldWithTheReason) {
+  fs::copy(*home_ / "undisturbed", run_, fs::copy_options::recursive);
+  write_file(folder_ / "wishes.json", R"({"must_join": [["b7.ply", "a7.ply"]]})");
+  const auto told = [&](const std::string& change) {
+    SQLite::Database(run_ + "/run.sqlite", SQLite::OPEN_READWRITE).exec(change);
+    return run({"assemble", run_, "--constraints", folder_ / "wishes.json"}).err;
+  };
+  const std::string theirs =
+      " WHERE a = (SELECT id FROM fragment WHERE name = 'a7.ply') AND b = (SELECT id FROM fragment WHERE "
+      "name = 'b7.ply'); ";
+  const std::string wish = "a7.ply and b7.ply must join, but no pose of the two is known: ";
+  for (const auto& [change, says] : std::vector<std::pair<std::string, std::string>>{
+           {"UPDATE candidate SET score = 0.1; DELETE FROM candidate" + theirs, "their search found none"},
+           {"UPDATE pair SET stage = 'apart'" + theirs, "the layout has them too far apart to touch"},
+           {"UPDATE pair SET stage = 'failed', error = 'full'" + theirs, "they could not be compared"},
+           {"DELETE FROM pair" + theirs, "they are not compared yet"}}) {
+    const std::string err = told(change);
+    EXPECT_NE(err.find(wish + says), std::string::npos) << err;
+  }
+}
+
 TEST_F(Batch, JsonLinesAreValidAndCountUp) {
   const Finished finished = run({"batch", scans(), "--out", run_, "--json"});
   ASSERT_EQ(finished.exit_code, 0);
