@@ -360,6 +360,11 @@ class Assembler {
       result.warnings.push_back(fmt::format("{{{}}} and {{{}}} must not join, but touch{}", a, b,
                                             is_pinned(a) && is_pinned(b) ? " at the poses given" : ""));
     }
+    for (const std::size_t link : grower_.parted_by_pins(growth_)) {
+      const Link& l = links_[link];
+      result.warnings.push_back(
+          fmt::format("the poses given part {{{}}} and {{{}}} (score {:.3f})", l.a, l.b, l.score));
+    }
     const auto& pinned = options_.constraints.pinned;
     for (std::size_t i = 0; i < pinned.size(); ++i)
       for (std::size_t j = i + 1; j < pinned.size(); ++j) tell_of_given_poses(pinned[i], pinned[j], result);

@@ -54,6 +54,9 @@ class Grower {
   /// Strong links that the growth leaves unsatisfied: those of two groups, or of one group with another pose.
   std::vector<std::size_t> unsatisfied(const Growth& growth) const;
 
+  /// Those of unsatisfied() that given poses part: nothing else puts the two pieces into one group.
+  std::vector<std::size_t> parted_by_pins(const Growth& growth) const;
+
   /// The link of a pair that agrees with the growth and has the best score; links.size() if none does.
   std::size_t agreeing(const Growth& growth, std::size_t a, std::size_t b) const;
 

@@ -171,6 +171,32 @@ TEST(Constraints, PinnedPiecesStayWhereTheyAre) {
   EXPECT_EQ(result.groups, 1);
 }
 
+TEST(Constraints, SureJoinsThatGivenPosesPartAreTold) {
+  const Corner corner = corner_of(ball());
+  Rigid away = ball().to_world[corner.b];
+  away.translation += glm::dvec3(100.0, 0.0, 0.0);
+  const auto warnings = [&](const Rigid& at_b, const std::vector<Link>& links) {
+    Options options;
+    options.constraints.pinned = {{corner.a, ball().to_world[corner.a]}, {corner.b, at_b}};
+    return run(ball(), links, options).warnings;
+  };
+  const auto parted = [&](std::size_t x, std::size_t y) {
+    return fmt::format("the poses given part {{{}}} and {{{}}} (score 0.995)", x, y);
+  };
+  const Link with_b = ball().true_link(corner.a, corner.b, 0.995);
+  const Link with_c = ball().true_link(corner.a, corner.c, 0.999);
+  const Link b_and_c = ball().true_link(corner.b, corner.c, 0.995);
+  EXPECT_EQ(warnings(away, {with_b}), std::vector<std::string>{parted(corner.a, corner.b)});
+  const std::vector<std::string> both = warnings(away, {with_c, b_and_c});
+  EXPECT_NE(std::ranges::find(both, parted(corner.b, corner.c)), both.end())
+      << "a piece without a given pose goes with the surer join";
+  EXPECT_TRUE(warnings(ball().to_world[corner.b], {with_b, with_c, b_and_c}).empty());
+  EXPECT_TRUE(warnings(ball().to_world[corner.b],
+                       {with_b, with_c, ball().false_link(corner.b, corner.c, 0.995, 20.0, 1.5)})
+                  .empty())
+      << "joins contradict each other, whatever poses are given";
+}
+
 TEST(Constraints, OtherGroupsLieBesideThePinnedOne) {
   const Box& box = two_balls();
   const auto low_and_high = [&](const Result& result, std::size_t begin, std::size_t end) {
