@@ -119,21 +119,23 @@ class Assembler {
   /// candidate may be false: put first, it would take true joins with it.
   void grow(Result& result, const Context& context) {
     growth_ = best_growth(grower_, options_, context);
+    const Growth unasked = growth_;
     std::vector<std::pair<std::size_t, std::size_t>> unmet;
-    for (bool more = true; more && !context.cancelled();) {
-      more = false;
-      for (const auto& pair : options_.constraints.must_join) {
-        if (std::find(unmet.begin(), unmet.end(), pair) != unmet.end() || joins(pair.first, pair.second))
-          continue;
-        unmet.push_back(pair);
-        more = true;
-      }
-      if (!more) return;
-      const Growth before = growth_;
+    while (!context.cancelled() && add_unmet(unmet)) {
       grower_.want(unmet);
       growth_ = best_growth(grower_, options_, context);
-      tell_given_up(before, result);
     }
+    if (!unmet.empty() && !context.cancelled()) tell_given_up(unasked, result);
+  }
+
+  /// Adds the pairs that must join and do not; false if there are no more.
+  bool add_unmet(std::vector<std::pair<std::size_t, std::size_t>>& unmet) const {
+    const std::size_t before = unmet.size();
+    for (const auto& pair : options_.constraints.must_join) {
+      if (std::find(unmet.begin(), unmet.end(), pair) == unmet.end() && !joins(pair.first, pair.second))
+        unmet.push_back(pair);
+    }
+    return unmet.size() > before;
   }
 
   /// Whether two pieces touch where they lie.
@@ -154,8 +156,9 @@ class Assembler {
   }
 
   /// Sure joins that had to go for pairs that must join.
-  void tell_given_up(const Growth& before, Result& result) const {
-    const std::vector<std::size_t> lost_before = grower_.unsatisfied(before);
+  /// \param unasked  grown without them
+  void tell_given_up(const Growth& unasked, Result& result) const {
+    const std::vector<std::size_t> lost_before = grower_.unsatisfied(unasked);
     for (const std::size_t link : grower_.unsatisfied(growth_)) {
       if (std::find(lost_before.begin(), lost_before.end(), link) != lost_before.end()) continue;
       result.warnings.push_back(
@@ -345,11 +348,11 @@ class Assembler {
 
   void tell_broken_wishes(Result& result) const {
     for (const auto& [a, b] : options_.constraints.must_join) {
-      if (touch_in(growth_, a, b)) continue;
-      result.warnings.push_back(
-          is_pinned(a) && is_pinned(b)
-              ? fmt::format("{{{}}} and {{{}}} must join, but do not touch at the poses given", a, b)
-              : fmt::format("{{{}}} and {{{}}} must join, but at none of their poses they fit", a, b));
+      if (touch_in(growth_, a, b)) {
+        tell_worse_pose(a, b, result);
+      } else {
+        result.warnings.push_back(fmt::format("{{{}}} and {{{}}} must join, but {}", a, b, why_apart(a, b)));
+      }
     }
     for (const auto& [a, b] : options_.constraints.must_not_join) {
       if (growth_.group[a] != growth_.group[b] || !touch_forbidden(pieces_[a], pieces_[b], relative(a, b)))
@@ -357,9 +360,47 @@ class Assembler {
       result.warnings.push_back(fmt::format("{{{}}} and {{{}}} must not join, but touch{}", a, b,
                                             is_pinned(a) && is_pinned(b) ? " at the poses given" : ""));
     }
+    for (const std::size_t link : grower_.parted_by_pins(growth_)) {
+      const Link& l = links_[link];
+      result.warnings.push_back(
+          fmt::format("the poses given part {{{}}} and {{{}}} (score {:.3f})", l.a, l.b, l.score));
+    }
     const auto& pinned = options_.constraints.pinned;
     for (std::size_t i = 0; i < pinned.size(); ++i)
       for (std::size_t j = i + 1; j < pinned.size(); ++j) tell_of_given_poses(pinned[i], pinned[j], result);
+  }
+
+  /// Why a pair that must join does not.
+  std::string why_apart(std::size_t a, std::size_t b) const {
+    if (is_pinned(a) && is_pinned(b)) return "do not touch at the poses given";
+    if (std::ranges::any_of(links_, [&](const Link& l) { return key_of(l.a, l.b) == key_of(a, b); }))
+      return "at none of their poses they fit";
+    const auto why = options_.without_pose.find(key_of(a, b));
+    const std::string none = "no pose of the two is known";
+    return why == options_.without_pose.end() ? none : fmt::format("{}: {}", none, why->second);
+  }
+
+  /// Of a pair that must join, that its best pose does not fit.
+  void tell_worse_pose(std::size_t a, std::size_t b, Result& result) const {
+    const auto is_theirs = [&](std::size_t link) {
+      return key_of(links_[link].a, links_[link].b) == key_of(a, b);
+    };
+    const auto used = std::ranges::find_if(growth_.used, is_theirs);
+    if (used == growth_.used.end()) return;  // where other joins put them
+    const Rejection* better = nullptr;
+    double most = links_[*used].score;
+    for (const Rejection& rejection : growth_.rejected) {
+      if (!is_theirs(rejection.link) || rejection.why == Rejection::Why::Contradiction) continue;
+      if (links_[rejection.link].score <= most) continue;
+      most = links_[rejection.link].score;
+      better = &rejection;
+    }
+    if (better == nullptr) return;
+    result.warnings.push_back(fmt::format(
+        "{{{}}} and {{{}}} join at a pose of score {:.3f}, as at their best ({:.3f}) {{{}}} and {{{}}} would "
+        "{}",
+        a, b, links_[*used].score, most, better->a, better->b,
+        better->why == Rejection::Why::Overlap ? "lie in each other" : "touch, which must not join"));
   }
 
   /// Given poses are kept whatever they do.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,6 +38,8 @@ struct Options {
   double same_shift = 0.04;    ///< and shifted by less, share of the smaller fragment's diameter
   int retries = 24;            ///< other orders that are tried where strong joins contradict each other
   Constraints constraints;
+  std::map<std::pair<std::size_t, std::size_t>, std::string>
+      without_pose;  ///< why pairs have no link, the smaller number first; told of those that must join
 };
 
 /// A join of the assembly.

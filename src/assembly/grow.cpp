@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "assembly/pairs.hpp"
-#include "assembly/witness.hpp"
 #include "core/parallel.hpp"
 
 namespace rejoin::assembly {
@@ -102,7 +101,7 @@ Rigid Grower::transform(const State& state, std::size_t link, std::size_t into) 
 }
 
 Grower::Proposal Grower::weigh(const State& state, const Key& key, std::size_t link) const {
-  Proposal proposal{link, odds_[link], 0.0, 0.0, false, links_.size()};
+  Proposal proposal{link, odds_[link], 0.0, 0.0, 0.0, false, links_.size()};
   const Rigid second_to_first = transform(state, link, key.first);
   const double sure = log_odds(options_.sure);
   const Key own = key_of(links_[link].a, links_[link].b);
@@ -181,8 +180,9 @@ bool Grower::hear(State& state, const Context& context) {
   for (std::size_t k = 0; k < open.size(); ++k) {
     Proposal& p = *open[k];
     p.heard = true;
-    const double more = heard[k].value_or(0.0);
-    p.agreeing = p.agreeing > 0.0 ? std::max(p.agreeing, more) : more;
+    const Heard more = heard[k].value_or(Heard{});
+    p.agreeing = p.agreeing > 0.0 ? std::max(p.agreeing, more.all) : more.all;
+    p.vouched = more.unlinked;
     any = any || p.certainty() >= sure;
   }
   for (auto& [key, list] : state.proposals) rank(list);
@@ -208,7 +208,7 @@ Grower::Question Grower::question(const State& state, std::vector<std::size_t> l
 }
 
 /// What the contacts of other pairs add if links put groups together.
-std::optional<double> Grower::answer(const State& state, const Question& question) const {
+std::optional<Heard> Grower::answer(const State& state, const Question& question) const {
   std::vector<Rigid> poses = state.growth.poses;
   std::vector<Link> links;
   for (const std::size_t link : question.links) links.push_back(links_[link]);
@@ -226,7 +226,10 @@ std::optional<double> Grower::answer(const State& state, const Question& questio
       placed.insert(moves);
     }
   }
-  return witness_odds(pieces_, links, question.groups, std::move(poses), options_);
+  const auto is_linked = [&](std::size_t a, std::size_t b, const Rigid& b_to_a) {
+    return agreeing(a, b, b_to_a) != links_.size();
+  };
+  return hear_contacts(pieces_, links, question.groups, std::move(poses), options_, is_linked);
 }
 
 /// Answers of several questions, also of those that were asked before.
@@ -257,7 +260,7 @@ bool Grower::try_best(State& state) {
   best->erase(best->begin());
   if (!fits(state, used.link)) return true;
   merge(state, used.link, used.alone + used.agreeing);
-  if (used.heard) state.growth.vouched += used.agreeing;
+  state.growth.vouched += used.vouched;
   return true;
 }
 
@@ -310,11 +313,10 @@ bool Grower::try_two(State& state, const Context& context) {
   std::array<std::size_t, 2> best{};
   double vouched = 0.0;
   for (std::size_t k = 0; k < unsure.size(); ++k) {
-    const double certainty = unsure[k].alone + heard[k].value_or(0.0);
-    if (!heard[k] || certainty <= most) continue;
-    most = certainty;
+    if (!heard[k] || unsure[k].alone + heard[k]->all <= most) continue;
+    most = unsure[k].alone + heard[k]->all;
     best = unsure[k].links;
-    vouched = *heard[k];
+    vouched = heard[k]->unlinked;
   }
   if (best[0] == best[1]) return false;
   for (const std::size_t link : best) {  // whatever happens, these two are not tried again

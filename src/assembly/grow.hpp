@@ -11,6 +11,7 @@
 
 #include "assembly/evidence.hpp"
 #include "assembly/spread.hpp"
+#include "assembly/witness.hpp"
 
 namespace rejoin::assembly {
 
@@ -31,8 +32,9 @@ struct Growth {
   std::vector<std::size_t> used;   ///< links that made groups one
   std::vector<double> odds;        ///< log-odds of each of them, with what other pairs add
   std::vector<Rejection>
-      rejected;         ///< links above the limit that were not used, in the order they were tried
-  double vouched = 0;   ///< log-odds that contacts without links gave to the links that were used
+      rejected;  ///< links above the limit that were not used, in the order they were tried
+  double vouched =
+      0;  ///< log-odds that contacts without links gave to the links that were used; links count in `evidence`
   double evidence = 0;  ///< log-odds of all links that agree, less those of strong ones that do not
 };
 
@@ -52,6 +54,9 @@ class Grower {
   /// Strong links that the growth leaves unsatisfied: those of two groups, or of one group with another pose.
   std::vector<std::size_t> unsatisfied(const Growth& growth) const;
 
+  /// Those of unsatisfied() that given poses part: nothing else puts the two pieces into one group.
+  std::vector<std::size_t> parted_by_pins(const Growth& growth) const;
+
   /// The link of a pair that agrees with the growth and has the best score; links.size() if none does.
   std::size_t agreeing(const Growth& growth, std::size_t a, std::size_t b) const;
 
@@ -66,6 +71,7 @@ class Grower {
     std::size_t link;
     double alone;         ///< log-odds of the link itself, less what contradicts it
     double agreeing;      ///< log-odds that other pairs add
+    double vouched;       ///< those of contacts without links, where they were asked
     double wish;          ///< what lets it go before others
     bool heard;           ///< whether their contacts were asked, not their links alone
     std::size_t against;  ///< a strong link that contradicts; links.size(): none
@@ -83,8 +89,8 @@ class Grower {
     }
   };
 
-  /// Log-odds that contacts of other pairs add; nothing where pieces would lie in each other.
-  using Answers = std::vector<std::optional<double>>;
+  /// What contacts of other pairs add; nothing where pieces would lie in each other.
+  using Answers = std::vector<std::optional<Heard>>;
 
   /// Two links that make three groups one.
   struct Two {
@@ -110,7 +116,7 @@ class Grower {
   void settle_all(State& state, const Context& context) const;
   bool hear(State& state, const Context& context);
   Question question(const State& state, std::vector<std::size_t> links) const;
-  std::optional<double> answer(const State& state, const Question& question) const;
+  std::optional<Heard> answer(const State& state, const Question& question) const;
   Answers answers(const State& state, std::vector<Question>& questions, const Context& context);
   bool try_best(State& state);
   bool try_two(State& state, const Context& context);
@@ -124,6 +130,7 @@ class Grower {
 
   /// Takes the second group's frame to the first's, by a link between them.
   Rigid transform(const State& state, std::size_t link, std::size_t into) const;
+  std::size_t agreeing(std::size_t a, std::size_t b, const Rigid& b_to_a) const;
   std::vector<Touching> contacts_of(const Growth& growth, const std::vector<std::size_t>& members) const;
   bool must(const std::vector<Key>& pairs, std::size_t link) const;
 
@@ -133,8 +140,8 @@ class Grower {
   std::vector<double> odds_;                          ///< log-odds, one a link
   std::map<Key, std::vector<std::size_t>> links_of_;  ///< by fragments, best first
   std::vector<Key> wanted_, unwanted_;
-  std::map<Question, std::optional<double>> answered_;  ///< before, wherever the groups lay by then
-  std::map<std::vector<double>, bool> overlaps_;        ///< what was computed before, by pair and pose
+  std::map<Question, std::optional<Heard>> answered_;  ///< before, wherever the groups lay by then
+  std::map<std::vector<double>, bool> overlaps_;       ///< what was computed before, by pair and pose
 };
 
 }  // namespace rejoin::assembly

@@ -1,5 +1,6 @@
 /// What a growth amounts to: which links agree with it, how its pieces settle, and the evidence of all.
 #include <algorithm>
+#include <numeric>
 
 #include "assembly/grow.hpp"
 #include "assembly/pairs.hpp"
@@ -7,12 +8,18 @@
 namespace rejoin::assembly {
 
 std::size_t Grower::agreeing(const Growth& growth, std::size_t a, std::size_t b) const {
+  if (growth.group[a] != growth.group[b]) return links_.size();
+  return agreeing(a, b, inverse(growth.poses[a]) * growth.poses[b]);
+}
+
+/// Of two pieces that lie so.
+std::size_t Grower::agreeing(std::size_t a, std::size_t b, const Rigid& b_to_a) const {
   const auto found = links_of_.find(key_of(a, b));
-  if (found == links_of_.end() || growth.group[a] != growth.group[b]) return links_.size();
+  if (found == links_of_.end()) return links_.size();
   for (const std::size_t k : found->second) {
     const Link& l = links_[k];
-    const Rigid relative = inverse(growth.poses[l.a]) * growth.poses[l.b];
-    if (same_pose(pieces_[l.a], pieces_[l.b], l.pose, relative, options_)) return k;
+    if (same_pose(pieces_[l.a], pieces_[l.b], l.pose, l.a == a ? b_to_a : inverse(b_to_a), options_))
+      return k;
   }
   return links_.size();
 }
@@ -59,6 +66,25 @@ std::vector<std::size_t> Grower::unsatisfied(const Growth& growth) const {
   }
   std::stable_sort(result.begin(), result.end(),
                    [&](std::size_t x, std::size_t y) { return odds_[x] > odds_[y]; });
+  return result;
+}
+
+std::vector<std::size_t> Grower::parted_by_pins(const Growth& growth) const {
+  const auto& pinned = options_.constraints.pinned;
+  if (pinned.size() < 2) return {};
+  std::vector<std::size_t> held(pieces_.size());  // by links that agree: one of such pieces stands for them
+  std::iota(held.begin(), held.end(), std::size_t{0});
+  for (const auto& [pair, list] : links_of_) {
+    const std::size_t from = held[pair.second];
+    const std::size_t to = held[pair.first];
+    if (from != to && agreeing(growth, pair.first, pair.second) != links_.size())
+      std::ranges::replace(held, from, to);
+  }
+  std::vector<std::size_t> result = unsatisfied(growth);
+  std::erase_if(result, [&](std::size_t link) {
+    const auto [a, b] = key_of(links_[link].a, links_[link].b);
+    return growth.group[a] != growth.group[b] || held[a] == held[b];
+  });
   return result;
 }
 

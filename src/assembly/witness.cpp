@@ -24,24 +24,28 @@ class Meeting {
           const Options& options)
       : pieces_(pieces), links_(links), groups_(groups), poses_(std::move(poses)), options_(options) {}
 
-  std::optional<double> odds() {
+  std::optional<Heard> odds(const IsLinked& is_linked) {
     if (overlaps()) return std::nullopt;  // most do, and it shows soonest
     std::vector<Touching> contacts = between_groups();
-    if (contacts.size() <= links_.size()) return 0.0;
+    if (contacts.size() <= links_.size()) return Heard{};
     const std::size_t others = contacts.size();
     align(contacts);
     const bool steady = std::all_of(links_.begin(), links_.end(), [&](const Link& link) {
       return same_pose(pieces_[link.a], pieces_[link.b], link.pose, relative(link.a, link.b), options_);
     });
-    if (!steady) return 0.0;
+    if (!steady) return Heard{};
     if (forbidden_touch()) return std::nullopt;
-    double sum = 0.0;
+    Heard sum;
     for (std::size_t k = 0; k < others; ++k) {
       const auto [a, b, pose, matched] = contacts[k];
       if (is_own(a, b)) continue;
-      sum += witness_odds(contact_evidence(pieces_[a], pieces_[b], relative(a, b)));
+      const double odds = witness_odds(contact_evidence(pieces_[a], pieces_[b], relative(a, b)));
+      sum.all += odds;
+      if (!is_linked(a, b, relative(a, b))) sum.unlinked += odds;
     }
-    return sum >= kHeard ? sum + kSurprise : sum;
+    for (double* const odds : {&sum.all, &sum.unlinked})
+      if (*odds >= kHeard) *odds += kSurprise;
+    return sum;
   }
 
  private:
@@ -162,7 +166,16 @@ double witness_odds(const match::Evidence& evidence) {
 std::optional<double> witness_odds(const std::vector<Piece>& pieces, const std::vector<Link>& links,
                                    const std::vector<std::vector<std::size_t>>& groups,
                                    std::vector<Rigid> poses, const Options& options) {
-  return Meeting(pieces, links, groups, std::move(poses), options).odds();
+  const auto none = [](std::size_t /*a*/, std::size_t /*b*/, const Rigid& /*b_to_a*/) { return false; };
+  const std::optional<Heard> heard = hear_contacts(pieces, links, groups, std::move(poses), options, none);
+  return heard ? std::optional(heard->all) : std::nullopt;
+}
+
+std::optional<Heard> hear_contacts(const std::vector<Piece>& pieces, const std::vector<Link>& links,
+                                   const std::vector<std::vector<std::size_t>>& groups,
+                                   std::vector<Rigid> poses, const Options& options,
+                                   const IsLinked& is_linked) {
+  return Meeting(pieces, links, groups, std::move(poses), options).odds(is_linked);
 }
 
 }  // namespace rejoin::assembly

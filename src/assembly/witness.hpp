@@ -1,6 +1,7 @@
 /// What contacts say that no search looked for.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -21,5 +22,20 @@ double witness_odds(const match::Evidence& evidence);
 std::optional<double> witness_odds(const std::vector<Piece>& pieces, const std::vector<Link>& links,
                                    const std::vector<std::vector<std::size_t>>& groups,
                                    std::vector<Rigid> poses, const Options& options);
+
+/// Whether a link says that two pieces lie so.
+using IsLinked = std::function<bool(std::size_t a, std::size_t b, const Rigid& b_to_a)>;
+
+/// What witness_odds() adds up, of all contacts and of those alone that no link knows.
+struct Heard {
+  double all = 0;
+  double unlinked = 0;
+};
+
+/// The same as witness_odds(), asked once for both.
+std::optional<Heard> hear_contacts(const std::vector<Piece>& pieces, const std::vector<Link>& links,
+                                   const std::vector<std::vector<std::size_t>>& groups,
+                                   std::vector<Rigid> poses, const Options& options,
+                                   const IsLinked& is_linked);
 
 }  // namespace rejoin::assembly

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <system_error>
@@ -86,9 +87,13 @@ class AssembleCommand final : public Command {
     AssembleInput input = read_assemble_input(input_, keep, matching, console, context);
     if (context.cancelled()) return stopped(console);
     require_no_loss(input, files);
+    AskedConstraints asked;
     if (constraints) {
-      AskedConstraints asked = read_constraints(*constraints, input.names, input.bad);
+      asked = read_constraints(*constraints, input.names, input.bad);
       options_.constraints = std::move(asked.constraints);
+      options_.without_pose = input.without_pose;
+      for (const auto& [a, b] : options_.constraints.must_join)
+        options_.without_pose.try_emplace(std::minmax(a, b), "they are not compared yet");
       input.left_out = std::move(asked.left_out);
     }
     const assembly::Result result = assembly::assemble(input.fragments, input.links, options_, context);
@@ -101,7 +106,7 @@ class AssembleCommand final : public Command {
         console.warning(file.string() + " is kept as an earlier assembly wrote it");
         continue;
       }
-      write_file(file, assembly_json(input, options_.constraints, result));
+      write_file(file, assembly_json(input, asked.named, result));
       console.wrote(file);
     }
     if (out_ && !result.cancelled) {

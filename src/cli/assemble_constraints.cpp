@@ -17,6 +17,7 @@ namespace {
 
 using nlohmann::ordered_json;
 using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
+using NamedPairs = NamedConstraints::Pairs;
 
 constexpr const char* kMend = "see \"Constraints\" in docs/box-of-sherds.md";
 
@@ -36,14 +37,9 @@ class Reader {
         fail(fmt::format("knows no \"{}\"", key));
     }
     assembly::Constraints& constraints = asked_.constraints;
-    constraints.must_join = pairs(json, "must_join");
-    constraints.must_not_join = pairs(json, "must_not_join");
-    for (const auto& pair : constraints.must_join) {
-      const auto& other = constraints.must_not_join;
-      if (std::find(other.begin(), other.end(), pair) != other.end())
-        fail(fmt::format("says that {} and {} must and must not join", names_[pair.first],
-                         names_[pair.second]));
-    }
+    constraints.must_join = pairs(json, "must_join", asked_.named.must_join);
+    constraints.must_not_join = pairs(json, "must_not_join", asked_.named.must_not_join);
+    require_no_both();
     constraints.pinned = poses(json);
     return asked_;
   }
@@ -66,6 +62,15 @@ class Reader {
   }
 
   [[noreturn]] void fail(const std::string& problem) const { throw InputError(path_, problem, kMend); }
+
+  void require_no_both() const {
+    for (const auto& [a, b] : asked_.named.must_join) {
+      for (const auto& [c, d] : asked_.named.must_not_join) {
+        if (std::minmax(a, b) == std::minmax(c, d))
+          fail(fmt::format("says that {} and {} must and must not join", a, b));
+      }
+    }
+  }
 
   /// \return nothing if it is a fragment that cannot be used
   std::optional<std::size_t> number_of(const ordered_json& name, const std::string& place) {
@@ -90,7 +95,8 @@ class Reader {
     return meant == names_.end() ? "" : fmt::format(" (\"{}\"?)", *meant);
   }
 
-  Pairs pairs(const ordered_json& json, const std::string& key) {
+  /// \param named  takes them as they stand there
+  Pairs pairs(const ordered_json& json, const std::string& key, NamedPairs& named) {
     Pairs result;
     if (!json.contains(key)) return result;
     if (!json[key].is_array()) fail(fmt::format("\"{}\" is no list of pairs", key));
@@ -100,8 +106,9 @@ class Reader {
       if (!pair.is_array() || pair.size() != 2) fail(place + " is no pair of names");
       const auto a = number_of(pair[0], place);
       const auto b = number_of(pair[1], place);
+      named.emplace_back(pair[0].get<std::string>(), pair[1].get<std::string>());
+      if (named.back().first == named.back().second) fail(place + " names the same fragment twice");
       if (!a || !b) continue;
-      if (*a == *b) fail(place + " names the same fragment twice");
       result.emplace_back(std::min(*a, *b), std::max(*a, *b));
     }
     return result;
@@ -114,14 +121,12 @@ class Reader {
     for (const auto& [name, rows] : json["poses"].items()) {
       const std::string place = fmt::format("\"poses\".\"{}\"", name);
       const auto number = number_of(name, place);
-      if (!number) continue;
       const std::optional<Rigid> pose =
           rows.is_string() ? read_pose(std::filesystem::path(path_).parent_path() / rows.get<std::string>())
                            : rigid_from_json(rows);
       if (!pose) fail(fmt::format("{} {}", place, kNoRigid));
-      if (std::any_of(result.begin(), result.end(), [&](const auto& p) { return p.first == *number; }))
-        fail(place + " is given twice");
-      result.emplace_back(*number, *pose);
+      asked_.named.poses.emplace_back(name, *pose);
+      if (number) result.emplace_back(*number, *pose);
     }
     return result;
   }

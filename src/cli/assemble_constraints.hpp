@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "assembly/assembly.hpp"
@@ -15,9 +16,18 @@ struct ConstraintsFile {
   std::string text;
 };
 
-/// What a file of constraints asks for.
+/// What a file of constraints asks for, as it has it.
+struct NamedConstraints {
+  using Pairs = std::vector<std::pair<std::string, std::string>>;
+  Pairs must_join;
+  Pairs must_not_join;
+  std::vector<std::pair<std::string, Rigid>> poses;
+};
+
+/// What can be asked of an assembly of it.
 struct AskedConstraints {
   assembly::Constraints constraints;
+  NamedConstraints named;  ///< all, left out or not
   std::vector<std::string>
       left_out;  ///< of those that name a fragment that cannot be used: which, and the reason
 };

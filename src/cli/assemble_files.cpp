@@ -102,18 +102,17 @@ std::vector<std::string> with_names(const std::vector<std::string>& texts,
 }
 
 /// As the user's file has them, and what became of them.
-ordered_json constraints_json(const AssembleInput& input, const assembly::Constraints& constraints,
+ordered_json constraints_json(const AssembleInput& input, const NamedConstraints& constraints,
                               const assembly::Result& result) {
-  const std::vector<std::string>& names = input.names;
-  const auto pairs = [&](const std::vector<std::pair<std::size_t, std::size_t>>& list) {
+  const auto pairs = [](const NamedConstraints::Pairs& list) {
     ordered_json json = ordered_json::array();
-    for (const auto& [a, b] : list) json.push_back({names[a], names[b]});
+    for (const auto& [a, b] : list) json.push_back({a, b});
     return json;
   };
   ordered_json poses = ordered_json::object();
-  for (const auto& [fragment, pose] : constraints.pinned) poses[names[fragment]] = to_json(pose);
+  for (const auto& [name, pose] : constraints.poses) poses[name] = to_json(pose);
   std::vector<std::string> problems = input.left_out;
-  std::ranges::copy(with_names(result.warnings, names), std::back_inserter(problems));
+  std::ranges::copy(with_names(result.warnings, input.names), std::back_inserter(problems));
   return {{"must_join", pairs(constraints.must_join)},
           {"must_not_join", pairs(constraints.must_not_join)},
           {"poses", poses},
@@ -169,7 +168,7 @@ std::vector<std::string> warnings_of(const AssembleInput& input, const assembly:
   return list;
 }
 
-std::string assembly_json(const AssembleInput& input, const assembly::Constraints& constraints,
+std::string assembly_json(const AssembleInput& input, const NamedConstraints& constraints,
                           const assembly::Result& result) {
   ordered_json fragments = ordered_json::object();
   ordered_json unplaced = ordered_json::array();

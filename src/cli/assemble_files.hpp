@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "assembly/assembly.hpp"
+#include "cli/assemble_constraints.hpp"
 #include "cli/assemble_input.hpp"
 
 namespace rejoin::cli {
@@ -21,7 +22,7 @@ std::vector<std::string> warnings_of(const AssembleInput& input, const assembly:
 
 /// "rejoin.assembly/1".
 /// \param constraints  what the user asked for; it is told too
-std::string assembly_json(const AssembleInput& input, const assembly::Constraints& constraints,
+std::string assembly_json(const AssembleInput& input, const NamedConstraints& constraints,
                           const assembly::Result& result);
 
 /// A MeshLab project of the scans' files at their poses.

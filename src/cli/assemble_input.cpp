@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -109,6 +110,20 @@ std::map<std::int64_t, std::size_t> load_all(const store::Run& run, const fs::pa
   return number;
 }
 
+/// Why a pair has no pose.
+std::string why_none(const store::Pair& pair) {
+  switch (pair.stage) {
+    case store::Stage::Apart:
+      return "the layout has them too far apart to touch, so they were not searched";
+    case store::Stage::Failed:
+      return "they could not be compared (pairs.csv of the run says why)";
+    case store::Stage::Sweep:
+    case store::Stage::Match:
+      break;
+  }
+  return "their search found none";
+}
+
 AssembleInput read_run(const fs::path& folder, Console& console, const Context& context) {
   const store::Run run = store::Run::open(folder);
   AssembleInput input;
@@ -126,7 +141,9 @@ AssembleInput read_run(const fs::path& folder, Console& console, const Context& 
     const auto b = number.find(pair.b);
     if (a == number.end() || b == number.end()) continue;
     const bool join = pair.verdict == match::name_of(match::Verdict::Join);
-    for (const store::Candidate& candidate : run.candidates(pair)) {
+    const std::vector<store::Candidate> candidates = run.candidates(pair);
+    if (candidates.empty()) input.without_pose[std::minmax(a->second, b->second)] = why_none(pair);
+    for (const store::Candidate& candidate : candidates) {
       const bool holds =
           join || candidate.score < match::kSure;  // else only its stability kept the verdict from "join"
       input.links.push_back({a->second, b->second, candidate.pose, candidate.score, holds});

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "assembly/assembly.hpp"
@@ -21,7 +22,9 @@ struct AssembleInput {
   std::vector<std::string> hashes;  ///< of their content
   std::vector<match::Fragment> fragments;
   std::vector<assembly::Link> links;
-  store::Remains remains;             ///< of the run
+  std::map<std::pair<std::size_t, std::size_t>, std::string>
+      without_pose;        ///< compared pairs without links, the smaller number first, with the reason
+  store::Remains remains;  ///< of the run
   std::vector<std::string> warnings;  ///< what else the user should know of the run
   std::vector<std::string> left_out;  ///< constraints that name fragments which cannot be used
   bool failed_now = false;            ///< scans or pairs failed while a folder was matched; told

@@ -65,6 +65,8 @@ class AssemblyReader {
     if (!json.is_object() || json.value("schema", "") != "rejoin.assembly/1")
       refuse(path_, "is no assembly (schema rejoin.assembly/1)");
     if (!json.contains("fragments") || !json["fragments"].is_object()) refuse(path_, "has no \"fragments\"");
+    if (json.contains("pairs_missing") && !json["pairs_missing"].is_number_unsigned())
+      refuse(path_, "\"pairs_missing\" is no number of pairs");
     const std::size_t missing = json.value("pairs_missing", report_.missing_pairs);
     const std::size_t later = missing - std::min(missing, report_.missing_pairs);
     if (later > 0) change_ = fmt::format("the assembly is older than {} of the pairs", later);
@@ -122,6 +124,7 @@ class AssemblyReader {
       refuse(path_, "a join has no \"a\" and \"b\"");
     const auto a = number_of(join["a"]);
     const auto b = number_of(join["b"]);
+    if (join["a"] == join["b"]) refuse(path_, "a join is of " + join["a"].dump() + " with itself");
     if (!a || !b) return;
     const auto same = [&](const report::ReportPair& pair) {
       return std::minmax(pair.a, pair.b) == std::minmax(*a, *b);

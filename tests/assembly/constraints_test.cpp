@@ -98,7 +98,10 @@ TEST(Constraints, PairsThatMustJoinDoSoHoweverLowTheScore) {
   const Result result = run(ball(), weak, options);
   EXPECT_EQ(result.groups, 1);  // the better-scored pose overlaps, so the other is taken
   EXPECT_LT(ball().worst_turn(result), 0.5);
-  EXPECT_TRUE(result.warnings.empty());
+  EXPECT_EQ(result.warnings, std::vector<std::string>{
+                                 fmt::format("{0} join at a pose of score 0.010, as at their best (0.020) "
+                                             "{0} would lie in each other",
+                                             fmt::format("{{{}}} and {{{}}}", corner.a, corner.b))});
 }
 
 TEST(Constraints, PairsThatMustJoinAndDoAnyhowTakeNoOtherPose) {
@@ -119,11 +122,42 @@ TEST(Constraints, PairsThatMustJoinAndDoAnyhowTakeNoOtherPose) {
   }));
 }
 
+TEST(Constraints, SureJoinsThatOtherWishesKeepAreNotToldAsLost) {
+  const auto touch = [](std::size_t a, std::size_t b) {
+    return std::ranges::any_of(ball().contacts,
+                               [&](const auto& c) { return std::minmax(c.a, c.b) == std::minmax(a, b); });
+  };
+  std::vector<Link> links = ball().all_true(0.999);
+  Options options;
+  for (std::size_t a = 0; a < ball().fragments.size() && options.constraints.must_join.empty(); ++a) {
+    for (std::size_t b = a + 1; b < ball().fragments.size(); ++b) {
+      const std::size_t c = a == 0 ? (b == 1 ? 2 : 1) : 0;
+      if (touch(a, b) || !touch(a, c) || !touch(b, c)) continue;
+      links.push_back(ball().false_link(a, b, 0.01, 10.0, 1.5));
+      options.constraints.must_join = {{a, b}, {a, c}, {b, c}};
+      break;
+    }
+  }
+  ASSERT_EQ(options.constraints.must_join.size(), 3U);
+  const Result result = run(ball(), links, options);
+  EXPECT_EQ(groups_of(result), std::set<int>{0});
+  const auto [a, b] = options.constraints.must_join.front();
+  EXPECT_EQ(result.warnings, std::vector<std::string>{fmt::format(
+                                 "{{{}}} and {{{}}} must join, but at none of their poses they fit", a, b)});
+}
+
 TEST(Constraints, AWishThatCannotBeKeptIsSaid) {
   const Corner corner = corner_of(ball());
   Options options;
   options.constraints.must_join = {{corner.a, corner.b}};
-  EXPECT_EQ(run(ball(), {}, options).warnings.size(), 1U);
+  const std::string wish = fmt::format("{{{}}} and {{{}}} must join, but ", corner.a, corner.b);
+  const auto warnings = [&](const std::vector<Link>& links) { return run(ball(), links, options).warnings; };
+  EXPECT_EQ(warnings({ball().inside_link(corner.a, corner.b, 0.9)}),
+            std::vector<std::string>{wish + "at none of their poses they fit"});
+  EXPECT_EQ(warnings({}), std::vector<std::string>{wish + "no pose of the two is known"});
+  options.without_pose[std::minmax(corner.a, corner.b)] = "they were never looked at";
+  EXPECT_EQ(warnings({}),
+            std::vector<std::string>{wish + "no pose of the two is known: they were never looked at"});
 }
 
 TEST(Constraints, PinnedPiecesStayWhereTheyAre) {
@@ -135,6 +169,32 @@ TEST(Constraints, PinnedPiecesStayWhereTheyAre) {
   EXPECT_EQ(result.placements[corner.c].pose.rotation, ball().to_world[corner.c].rotation);
   EXPECT_LT(angle_between(result.placements[corner.b].pose, ball().to_world[corner.b]) / kDegree, 0.5);
   EXPECT_EQ(result.groups, 1);
+}
+
+TEST(Constraints, SureJoinsThatGivenPosesPartAreTold) {
+  const Corner corner = corner_of(ball());
+  Rigid away = ball().to_world[corner.b];
+  away.translation += glm::dvec3(100.0, 0.0, 0.0);
+  const auto warnings = [&](const Rigid& at_b, const std::vector<Link>& links) {
+    Options options;
+    options.constraints.pinned = {{corner.a, ball().to_world[corner.a]}, {corner.b, at_b}};
+    return run(ball(), links, options).warnings;
+  };
+  const auto parted = [&](std::size_t x, std::size_t y) {
+    return fmt::format("the poses given part {{{}}} and {{{}}} (score 0.995)", x, y);
+  };
+  const Link with_b = ball().true_link(corner.a, corner.b, 0.995);
+  const Link with_c = ball().true_link(corner.a, corner.c, 0.999);
+  const Link b_and_c = ball().true_link(corner.b, corner.c, 0.995);
+  EXPECT_EQ(warnings(away, {with_b}), std::vector<std::string>{parted(corner.a, corner.b)});
+  const std::vector<std::string> both = warnings(away, {with_c, b_and_c});
+  EXPECT_NE(std::ranges::find(both, parted(corner.b, corner.c)), both.end())
+      << "a piece without a given pose goes with the surer join";
+  EXPECT_TRUE(warnings(ball().to_world[corner.b], {with_b, with_c, b_and_c}).empty());
+  EXPECT_TRUE(warnings(ball().to_world[corner.b],
+                       {with_b, with_c, ball().false_link(corner.b, corner.c, 0.995, 20.0, 1.5)})
+                  .empty())
+      << "joins contradict each other, whatever poses are given";
 }
 
 TEST(Constraints, OtherGroupsLieBesideThePinnedOne) {

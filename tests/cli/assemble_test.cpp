@@ -128,6 +128,20 @@ TEST_F(BrokenBall, AssembleOfAFolderTellsAScanThatCannotBeUsedByItsExitCode) {
   EXPECT_EQ(result["unplaced"][0], "notes.ply");
 }
 
+TEST_F(BrokenBall, WhatIsAskedOfAScanThatCannotBeUsedNowStaysForTheNextAssembly) {
+  write_file(scans_ + "/notes.ply", "Dear diary,\n");
+  const std::string wishes = folder_ / "wishes.json";
+  const ordered_json asked = ordered_json::parse(R"({"must_join": [["notes.ply", "fragment_00.ply"]],
+      "must_not_join": [["fragment_01.ply", "notes.ply"]],
+      "poses": {"notes.ply": [[1, 0, 0, 5], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}})");
+  write_file(wishes, asked.dump());
+  const Finished finished = run({"assemble", scans_, "--json", json_, "--constraints", wishes});
+  EXPECT_NE(finished.err.find("\"must_join\"[0] is left out"), std::string::npos) << finished.err;
+  const ordered_json kept = ordered_json::parse(read_file(json_))["constraints"];
+  for (const auto& [key, value] : asked.items()) EXPECT_EQ(kept[key], value) << key;
+  EXPECT_EQ(kept["problems"].size(), 3U);
+}
+
 TEST_F(BrokenBall, AssemblyOfARunTellsAScanOfAnotherUnit) {
   const std::string metres = scans_ + "/fragment_02.ply";
   mesh::Mesh scan = mesh::load(metres).mesh;

@@ -250,7 +250,7 @@ TEST_F(Batch, SameScanUnderTwoNamesIsToldAndLeftOutByWholeRunsAndShards) {
   EXPECT_NE(assembled.err.find("\"must_not_join\"[0] is left out"), std::string::npos) << assembled.err;
   const json assembly = json::parse(read_file(run_ + "/assembly.json"));
   EXPECT_EQ(assembly["fragments"]["b7.ply"]["reason"], "is the same scan as a9.ply, which stands for both");
-  EXPECT_EQ(assembly["constraints"]["must_not_join"], json::array());
+  EXPECT_EQ(assembly["constraints"]["must_not_join"], json::parse(R"([["b7.ply", "a7.ply"]])"));
   EXPECT_EQ(assembly["constraints"]["problems"].size(), 1U);
 }
 
@@ -349,6 +349,27 @@ TEST_F(Batch, AssemblyOfAnUnfinishedRunSaysHowManyPairsAreMissing) {
   EXPECT_EQ(reason("a7.ply"), "none of its 2 pairs is compared yet") << reason("a7.ply");
   EXPECT_NE(reason("b7.ply").find("1 of its 2 pairs is not compared yet"), std::string::npos)
       << reason("b7.ply");
+}
+
+TEST_F(Batch, PairThatMustJoinButHasNoPoseIsToldWithTheReason) {
+  fs::copy(*home_ / "undisturbed", run_, fs::copy_options::recursive);
+  write_file(folder_ / "wishes.json", R"({"must_join": [["b7.ply", "a7.ply"]]})");
+  const auto told = [&](const std::string& change) {
+    SQLite::Database(run_ + "/run.sqlite", SQLite::OPEN_READWRITE).exec(change);
+    return run({"assemble", run_, "--constraints", folder_ / "wishes.json"}).err;
+  };
+  const std::string theirs =
+      " WHERE a = (SELECT id FROM fragment WHERE name = 'a7.ply') AND b = (SELECT id FROM fragment WHERE "
+      "name = 'b7.ply'); ";
+  const std::string wish = "a7.ply and b7.ply must join, but no pose of the two is known: ";
+  for (const auto& [change, says] : std::vector<std::pair<std::string, std::string>>{
+           {"UPDATE candidate SET score = 0.1; DELETE FROM candidate" + theirs, "their search found none"},
+           {"UPDATE pair SET stage = 'apart'" + theirs, "the layout has them too far apart to touch"},
+           {"UPDATE pair SET stage = 'failed', error = 'full'" + theirs, "they could not be compared"},
+           {"DELETE FROM pair" + theirs, "they are not compared yet"}}) {
+    const std::string err = told(change);
+    EXPECT_NE(err.find(wish + says), std::string::npos) << err;
+  }
 }
 
 TEST_F(Batch, JsonLinesAreValidAndCountUp) {

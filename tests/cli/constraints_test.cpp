@@ -97,6 +97,9 @@ TEST(ReadConstraints, LeavesOutWhatNamesAFragmentThatCannotBeUsedAndTellsIt) {
   ASSERT_EQ(asked.constraints.must_join.size(), 1U);
   EXPECT_EQ(asked.constraints.must_join[0], (std::pair<std::size_t, std::size_t>(0, 2)));
   EXPECT_TRUE(asked.constraints.pinned.empty());
+  EXPECT_EQ(asked.named.must_join, (NamedConstraints::Pairs{{"a.ply", "copy.ply"}, {"a.ply", "c.ply"}}));
+  ASSERT_EQ(asked.named.poses.size(), 1U);
+  EXPECT_EQ(asked.named.poses[0].first, "copy.ply");
   ASSERT_EQ(asked.left_out.size(), 2U);
   for (const char* part : {"wishes.json: \"must_join\"[0]", "copy.ply", "same scan as a.ply"})
     EXPECT_NE(asked.left_out[0].find(part), std::string::npos) << asked.left_out[0];
@@ -145,6 +148,10 @@ INSTANTIATE_TEST_SUITE_P(
         Hostile{"WithItself", R"({"must_join": [["a.ply", "a.ply"]]})", "same fragment twice"},
         Hostile{"Both", R"({"must_join": [["a.ply", "c.ply"]], "must_not_join": [["c.ply", "a.ply"]]})",
                 "must and must not join"},
+        Hostile{"BothOfACopy",
+                R"({"must_join": [["a.ply", "copy.ply"]], "must_not_join": [["copy.ply", "a.ply"]]})",
+                "must and must not join"},
+        Hostile{"CopyWithItself", R"({"must_join": [["copy.ply", "copy.ply"]]})", "same fragment twice"},
         Hostile{"PoseGivenTwice",
                 R"({"poses": {"a.ply": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]], )"
                 R"("a.ply": [[1, 0, 0, 5], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}})",

@@ -9,6 +9,9 @@ int main(int argc, char** argv) {
   const std::filesystem::path folder = argv[1];
   std::filesystem::create_directories(folder);
   report::write_run_report(report::planted_report(), folder / "hostile.html", Context());
+  report::RunReport posed = report::planted_report();
+  posed.constraints.must_not_join.clear();
+  report::write_run_report(posed, folder / "posed.html", Context());
   report::RunReport none;
   none.title = "nothing";
   report::write_run_report(none, folder / "empty.html", Context());

@@ -50,16 +50,19 @@ export class Decisions {
   }
 
   #show() {
-    if (this.made.size === 0) {
+    const {poses} = this.data.constraints;
+    if (this.made.size === 0 && poses.length === 0) {
       replace(this.element, h('p', {class: 'note'}, 'If the pieces in your hands, or the pictures, tell more than the scores, say so with the buttons of a join: a file for rejoin assemble is made of it here.'));
       return;
     }
     const text = this.#text();
+    const given = poses.length > 0 ? [counted(poses.length, 'given pose')] : [];
+    const kept = this.made.size > 0 ? `${[counted(this.made.size, 'decision'), ...given].join(' and ')}, those of the last assembly included` : `${given} of the last assembly`;
     const area = h('textarea', {readonly: true, rows: Math.min(text.split('\n').length, 12), spellcheck: 'false', 'aria-label': FILE, onfocus: () => area.select()});
     area.value = text;
     replace(
       this.element,
-      h('p', {}, `${counted(this.made.size, 'decision')}, those of the last assembly included. Save the file before you close the page, then put the pieces together again and make the page anew (RUN is its folder):`),
+      h('p', {}, `${kept}. Save the file before you close the page, then put the pieces together again and make the page anew (RUN is its folder):`),
       h('pre', {}, `rejoin assemble RUN --constraints ${FILE} --out DIR\nrejoin report RUN`),
       area,
       h('p', {class: 'buttons'}, h('button', {type: 'button', onclick: () => save(text)}, `Save ${FILE}`)),

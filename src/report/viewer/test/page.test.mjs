@@ -209,6 +209,13 @@ test('decisions on joins become a constraints file, which goes on with the last 
     assert.deepEqual(await saved(), {must_not_join: [[names[2], names[0]], [names[2], names[3]]], poses});
     await page.click('.join >> text="They do not join"');
     assert.deepEqual(await saved(), {must_not_join: [[names[2], names[0]]], poses});
+    assert.match(await page.textContent('.decisions'), /1 decision and 1 given pose, those of the last/);
+  }));
+
+test('poses given to the last assembly are kept where nothing else was decided', () =>
+  on('posed', async (page) => {
+    assert.match(await page.textContent('.decisions'), /1 given pose of the last assembly\. Save/);
+    assert.deepEqual(Object.keys(JSON.parse(await page.inputValue('.decisions textarea'))), ['poses']);
   }));
 
 test('a phone shows it without scrolling sideways', () =>
