@@ -100,8 +100,9 @@ class Work {
     std::vector<store::Fragment> wanted = describe_inputs();
     const store::Parameters parameters{version(), parameters_json(options_.match), options_.match.seed};
     const Shard& shard = options_.shard;
-    const auto forgotten = run_.begin(parameters, wanted,
-                                      shard.count > 1 ? fmt::format("{}/{}", shard.number, shard.count) : "");
+    const auto forgotten =
+        run_.begin(parameters, wanted, shard.count > 1 ? fmt::format("{}/{}", shard.number, shard.count) : "",
+                   known_of_other_shards(wanted));
     if (options_.retry) run_.forget_failures();
     for (const store::Fragment& fragment : run_.fragments()) fragments_[fragment.name] = fragment;
     count_done();
@@ -190,6 +191,21 @@ class Work {
       // One that cannot be read becomes a bad fragment when it is loaded, and a changed one once it can be read.
       if (list[k].hash.empty()) list[k].hash = hash_if_readable(list[k].path);
     });
+    return list;
+  }
+
+  /// Scans of the folder that the database knows and this shard no longer needs, as others came or went.
+  std::vector<store::Fragment> known_of_other_shards(const std::vector<store::Fragment>& wanted) const {
+    std::set<std::string> needed;
+    for (const store::Fragment& fragment : wanted) needed.insert(fragment.name);
+    std::vector<store::Fragment> list;
+    for (store::Fragment& known : run_.fragments()) {
+      const auto scan = scans_.find(known.name);
+      if (scan == scans_.end() || needed.count(known.name) != 0) continue;
+      known.path = scan->second.string();
+      list.push_back(std::move(known));
+    }
+    run_side_by_side(list.size(), [&](std::size_t k) { list[k].hash = hash_if_readable(list[k].path); });
     return list;
   }
 

@@ -226,6 +226,20 @@ TEST_F(Batch, ShardOfAFolderThatChangedCountsItsOwnPairsAlone) {
   EXPECT_GT(pairs_in(run_), 3) << "pairs of " << before << " that the shard had of the larger folder";
 }
 
+TEST_F(Batch, ShardRefusesAFolderOfOtherScans) {
+  ASSERT_EQ(run({"batch", scans(), "--out", run_, "--shard", "1/2"}).exit_code, 0);
+  const std::string before = content(run_);
+  for (const auto& [scan, seed] :
+       {std::pair("/x.ply", 21), std::pair("/y.ply", 22), std::pair("/z.ply", 23)}) {
+    fs::create_directories(folder_ / "other");
+    mesh::save(folder_ / "other" + scan, match::testing::planted_pair(seed, kCells).a);
+  }
+  const Finished refused = run({"batch", folder_ / "other", "--out", run_, "--shard", "1/2"});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_NE(refused.err.find("is of other scans"), std::string::npos) << refused.err;
+  EXPECT_EQ(content(run_), before);
+}
+
 TEST_F(Batch, SameScanUnderTwoNamesIsToldAndLeftOutByWholeRunsAndShards) {
   make_scans(folder_ / "scans");
   fs::copy_file(folder_ / "scans/b7.ply", folder_ / "scans/a9.ply");

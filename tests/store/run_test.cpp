@@ -262,6 +262,20 @@ TEST_F(RunTest, OtherContentsUnderTheSameNamesAreRefusedSoThatNoPairIsLost) {
   EXPECT_NO_THROW(run.begin(kParameters, others)) << "there is nothing to lose";
 }
 
+TEST_F(RunTest, AShardIsKeptFromOtherScansAndNotFromThoseOfItsFolder) {
+  const std::vector<Fragment> elsewhere = {fragment("x.ply", "77"), fragment("y.ply", "88")};
+  store::Run run = store::Run::write(folder_);
+  run.begin(kParameters, three_, "1/2");
+  run.save(pair_of(run.fragments(), 0, 1), {candidate_});
+  EXPECT_THROW(run.begin(kParameters, elsewhere, "1/2"), StoreError);
+  EXPECT_THROW(run.begin(kParameters, elsewhere, "1/2", {fragment("a.ply", "99")}), StoreError)
+      << "another content of the same name";
+  EXPECT_THROW(run.begin(kParameters, {fragment("a.ply", "44"), fragment("b.ply", "55")}, "1/2"), StoreError);
+  EXPECT_EQ(run.done().size(), 1U);
+  EXPECT_NO_THROW(run.begin(kParameters, elsewhere, "1/2", {three_[1]})) << "scans came before a.ply";
+  EXPECT_TRUE(run.done().empty());
+}
+
 TEST_F(RunTest, RefusalNamesAScanOfTheSameName) {
   make_run();
   store::Run run = store::Run::write(folder_);
@@ -272,6 +286,24 @@ TEST_F(RunTest, RefusalNamesAScanOfTheSameName) {
     EXPECT_NE(std::string(error.what()).find("same names: b.ply and 0 more"), std::string::npos)
         << error.what();
   }
+}
+
+TEST_F(RunTest, ScansThatCannotBeReadAreNotToldToBeOthers) {
+  make_run();
+  store::Run run = store::Run::write(folder_);
+  std::vector<Fragment> away = three_;
+  for (Fragment& scan : away) scan.hash = kUnreadable;
+  try {
+    run.begin(kParameters, away);
+    FAIL();
+  } catch (const StoreError& error) {
+    const std::string told = error.what();
+    EXPECT_NE(told.find("none of its scans can be read as it was: a.ply and 2 more"), std::string::npos)
+        << told;
+    EXPECT_NE(told.find("mount the disk"), std::string::npos) << told;
+    EXPECT_EQ(told.find("remove"), std::string::npos) << told;
+  }
+  EXPECT_EQ(run.done().size(), 1U);
 }
 
 TEST_F(RunTest, ScansThatWereAllUnreadableMayAllChange) {
