@@ -80,14 +80,15 @@ class AssembleCommand final : public Command {
     std::optional<ConstraintsFile> constraints;
     if (constraints_) {
       constraints = open_constraints(*constraints_);
-      read_constraints(*constraints, names_in(input_));  // before hours of matching
+      const KnownNames known = names_in(input_);
+      read_constraints(*constraints, known.names, {}, known.copies);  // before hours of matching
     }
     hints_.read_into(matching, input_);
     AssembleInput input = read_assemble_input(input_, keep, matching, console, context);
     if (context.cancelled()) return stopped(console);
     require_no_loss(input, files);
     if (constraints) {
-      AskedConstraints asked = read_constraints(*constraints, input.names, input.bad);
+      AskedConstraints asked = read_constraints(*constraints, input.names, input.bad, input.copies);
       options_.constraints = std::move(asked.constraints);
       input.left_out = std::move(asked.left_out);
     }

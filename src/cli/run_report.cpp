@@ -238,9 +238,10 @@ void warn(report::RunReport& report, Console& console, const std::string& text) 
 }
 
 /// \param stored  of the report's fragments, in their order
+/// \param copies  of these, which need no surface
 void read_scans(report::RunReport& report, const std::vector<store::Fragment>& stored,
-                const std::filesystem::path& folder, Console& console, const Context& context) {
-  const std::map<std::string, std::string> copies = store::copies(stored);
+                const std::map<std::string, std::string>& copies, const std::filesystem::path& folder,
+                Console& console, const Context& context) {
   const std::size_t count = report.fragments.size();
   const std::size_t faces =
       std::clamp(kMostFaces / std::max<std::size_t>(1, count), kLeastFaces, kFragmentFaces);
@@ -401,7 +402,7 @@ report::RunReport read_run(const std::filesystem::path& run, std::size_t listed,
   report.title = std::filesystem::weakly_canonical(folder).filename().string();
   Numbers numbers;
   const std::vector<store::Fragment> fragments = database.fragments();
-  const std::map<std::string, std::string> copies = store::copies(fragments);
+  const std::map<std::string, std::string> copies = database.copies();
   for (const auto& [copy, first] : copies) report.warnings.push_back(store::told_of_copy(copy, first));
   for (std::string& doubt : batch::doubts_about_units(fragments)) report.warnings.push_back(std::move(doubt));
   for (const store::Fragment& stored : fragments) {
@@ -435,7 +436,7 @@ report::RunReport read_run(const std::filesystem::path& run, std::size_t listed,
   const std::string missing = store::told(remains);
   if (!missing.empty()) report.warnings.push_back(missing);
   add_reasons(report, not_placed, remains);
-  read_scans(report, fragments, folder, console, context);
+  read_scans(report, fragments, copies, folder, console, context);
   return report;
 }
 

@@ -251,6 +251,14 @@ std::vector<Fragment> Run::fragments() const {
   return detail::guarded(access_->path, [&] { return detail::all_fragments(*access_->database); });
 }
 
+std::map<std::string, std::string> Run::copies() const {
+  return copies_among(fragments());
+}
+
+std::map<std::string, std::string> Run::copies_among(const std::vector<Fragment>& fragments) const {
+  return detail::guarded(access_->path, [&] { return detail::copies_in(*access_->database, fragments); });
+}
+
 std::vector<Pair> Run::pairs() const {
   std::vector<Pair> list;
   each_pair([&list](const Pair& pair) { list.push_back(pair); });

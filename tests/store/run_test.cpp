@@ -229,10 +229,29 @@ TEST_F(RunTest, CopyOfAnotherHasNoPairs) {
   EXPECT_EQ(copies(list),
             (std::map<std::string, std::string>{{"b.ply", "A.ply"}, {"Copy of c.ply", "c.ply"}}));
   store::Run run = store::Run::write(folder_);
-  run.save(pair_of(run.fragments(), 0, 2), {});
   run.begin(kParameters, list);
-  ASSERT_EQ(run.pairs().size(), 1U);
-  EXPECT_EQ(run.pairs()[0].name_b, "c.ply");
+  const std::map<std::string, std::string> kept{{"A.ply", "b.ply"}, {"Copy of c.ply", "c.ply"}};
+  EXPECT_EQ(run.copies(), kept) << "b.ply has a pair";
+  EXPECT_EQ(run.copies_among(list), kept);
+  EXPECT_EQ(run.pairs().size(), 1U);
+  Pair of_copy = pair_of(run.fragments(), 0, 1);  // A.ply and a.ply
+  run.save(of_copy, {candidate_});
+  run.begin(kParameters, list);
+  ASSERT_EQ(run.pairs().size(), 1U) << "as many each: the shorter name, or the first";
+  EXPECT_EQ(run.pairs()[0].name_a, "A.ply");
+  list[0].hash = list[3].hash = "44";
+  EXPECT_EQ(run.copies_among(list).at("b.ply"), "A.ply") << "pairs of an earlier content do not count";
+}
+
+TEST_F(RunTest, CopiesOfAShardAreChosenByNamesAlone) {
+  store::Run run = store::Run::write(folder_);
+  run.begin(kParameters, three_, "1/2");
+  run.save(pair_of(run.fragments(), 0, 1), {candidate_});
+  std::vector<Fragment> list = three_;
+  list.push_back(fragment("A.ply", "22"));
+  run.begin(kParameters, list, "1/2");
+  EXPECT_EQ(run.copies(), (std::map<std::string, std::string>{{"b.ply", "A.ply"}}));
+  EXPECT_TRUE(run.done().empty());
 }
 
 TEST_F(RunTest, GoneFragmentLosesItsPairs) {

@@ -30,11 +30,36 @@ std::array<double, 7> figures(const Candidate& c) {
   return {c.depth, c.slope, c.raycast, c.overlap, c.contact_area, c.gap_median, c.penetration};
 }
 
+/// Those of the fragments that are as the database knows them and whose content others have, too.
+SearchedPairs searched_pairs_of_equals(SQLite::Database& database, const std::vector<Fragment>& fragments) {
+  std::map<std::string, std::size_t> with_hash;
+  for (const Fragment& fragment : fragments) ++with_hash[fragment.hash];
+  SQLite::Statement count(database,
+                          "SELECT count(*) FROM fragment f JOIN pair p ON p.a = f.id OR p.b = f.id "
+                          "WHERE f.name = ? AND f.hash = ? AND p.stage IN ('sweep', 'match')");
+  SearchedPairs searched;
+  for (const Fragment& fragment : fragments) {
+    if (with_hash[fragment.hash] < 2) continue;
+    count.reset();
+    count.bind(1, fragment.name);
+    count.bind(2, fragment.hash);
+    count.executeStep();
+    searched[fragment.name] = static_cast<std::size_t>(count.getColumn(0).getInt64());
+  }
+  return searched;
+}
+
 }  // namespace
+
+std::map<std::string, std::string> copies_in(SQLite::Database& database,
+                                             const std::vector<Fragment>& fragments) {
+  const bool whole = database.execAndGet("SELECT shard FROM run").getString().empty();
+  return whole ? copies(fragments, searched_pairs_of_equals(database, fragments)) : copies(fragments);
+}
 
 void remove_pairs_of_copies(SQLite::Database& database) {
   const std::vector<Fragment> fragments = all_fragments(database);
-  const std::map<std::string, std::string> left_out = copies(fragments);
+  const std::map<std::string, std::string> left_out = copies_in(database, fragments);
   SQLite::Statement remove(database, "DELETE FROM pair WHERE a = ?1 OR b = ?1");
   for (const Fragment& fragment : fragments) {
     if (left_out.count(fragment.name) == 0) continue;

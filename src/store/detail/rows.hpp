@@ -3,6 +3,7 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,7 +20,12 @@ inline constexpr const char* kCandidateColumns =
 /// ", ?" for each of kCandidateColumns.
 std::string placeholders();
 
-/// Removes the pairs of copies() and their candidates.
+/// copies() of fragments that may have pairs in the database, under their names and hashes.  In a shard names alone tell which stands
+/// for all, for shards know nothing of each other and have to choose alike.
+std::map<std::string, std::string> copies_in(SQLite::Database& database,
+                                             const std::vector<Fragment>& fragments);
+
+/// Removes the pairs of copies_in() and their candidates.
 void remove_pairs_of_copies(SQLite::Database& database);
 
 const char* name_of(FragmentState state);
