@@ -112,6 +112,7 @@ class Work {
     for (const store::Fragment& fragment : run_.fragments()) fragments_[fragment.name] = fragment;
     count_done();
     listener_.on_start(forgotten, progress_);
+    for (const std::string& warning : options_.warnings) listener_.on_warning(warning, progress_);
     for (const std::string& left_out :
          {told_of_models(inputs_), told_of_folders(inputs_), told_of_formats(inputs_)}) {
       if (!left_out.empty()) listener_.on_warning(left_out, progress_);

@@ -28,7 +28,8 @@ struct Options {
   Layout layout;
   Painted painted;  ///< breaks where they are found wrong
   Shard shard;
-  bool retry = false;  ///< try again what failed in an earlier run
+  bool retry = false;                 ///< try again what failed in an earlier run
+  std::vector<std::string> warnings;  ///< of reading these options; the listener hears them after the start
 };
 
 /// How far a run is.
