@@ -91,7 +91,7 @@ class AssemblyReader {
       if (!change_.empty() || !value.is_object()) return;
       if (!number) {
         change_ = "the assembly was made with " + name + ", which the run no longer has";
-      } else if (const std::string& hash = stored_[*number].hash; value.value("scan", hash) != hash) {
+      } else if (is_of_another_scan(*number, value)) {
         change_ = "the assembly was made with another scan of " + name;
       }
     }
@@ -101,11 +101,22 @@ class AssemblyReader {
     }
   }
 
+  /// Poses and joins of another scan say nothing of this one.
+  bool is_of_another_scan(std::size_t number, const ordered_json& value) const {
+    const std::string& hash = stored_[number].hash;
+    return value.value("scan", hash) != hash;
+  }
+
   void place(const std::string& name, const ordered_json& value) {
     const auto number = number_of(name);
     if (!number) return;
     report::ReportFragment& fragment = report_.fragments[*number];
     if (!value.is_object()) refuse(path_, "fragment \"" + name + "\" is no object");
+    if (is_of_another_scan(*number, value)) {
+      if (fragment.reason.empty()) fragment.reason = "the assembly has another scan of it (rejoin assemble)";
+      replaced_.insert(*number);
+      return;
+    }
     if (change_.empty()) fragment.reason = value.value("reason", fragment.reason);
     const int group = value.value("group", -1);
     if (group < 0 || !value.contains("pose") || value["pose"].is_null()) return;
@@ -122,7 +133,7 @@ class AssemblyReader {
       refuse(path_, "a join has no \"a\" and \"b\"");
     const auto a = number_of(join["a"]);
     const auto b = number_of(join["b"]);
-    if (!a || !b) return;
+    if (!a || !b || replaced_.count(*a) != 0 || replaced_.count(*b) != 0) return;
     const auto same = [&](const report::ReportPair& pair) {
       return std::minmax(pair.a, pair.b) == std::minmax(*a, *b);
     };
@@ -212,7 +223,8 @@ class AssemblyReader {
   report::RunReport& report_;
   const Numbers& numbers_;
   const std::vector<store::Fragment>& stored_;
-  std::string change_;  ///< of the run since the assembly was made
+  std::string change_;              ///< of the run since the assembly was made
+  std::set<std::size_t> replaced_;  ///< fragments whose scan is another since
 };
 
 /// The scan's surface, or the one that the run keeps of it where that is no longer what was matched.
