@@ -37,7 +37,7 @@ struct PlantedRun {
     store::Fragment made;
     made.name = name;
     made.path = path;
-    made.hash = name;
+    made.hash = std::to_string(std::hash<std::string>()(name));
     return made;
   }
 

@@ -151,6 +151,30 @@ TEST_F(RunTest, CandidateWithoutPoseOrScoreIsRefused) {
   }
 }
 
+TEST_F(RunTest, FragmentWhoseNameOrHashLeadsElsewhereIsRefused) {
+  const auto expect_refused = [this](const std::string& change) {
+    make_run();
+    SQLite::Database(folder_ / kFileName, SQLite::OPEN_READWRITE)
+        .exec("UPDATE fragment SET " + change + " WHERE name = 'b.ply'");
+    try {
+      static_cast<void>(store::Run::open(folder_).fragments());
+      ADD_FAILURE() << change;
+    } catch (const StoreError& error) {
+      const std::string told = error.what();
+      EXPECT_EQ(told.find((folder_ / kFileName).string()), 0U) << told;
+      EXPECT_NE(told.find("its fragment 2 ("), std::string::npos) << told;
+      EXPECT_NE(told.find("run rejoin batch again"), std::string::npos) << told;
+    }
+    fs::remove(folder_ / kFileName);
+  };
+  for (const char* name : {"''", "'.'", "'..'", "'../../evil'", "'/etc/x'", "'a' || char(0) || 'b'",
+                           "'a' || char(10)", "CAST(x'61ff62' AS TEXT)"})
+    expect_refused(std::string("name = ") + name);
+  expect_refused("path = ''");
+  for (const char* hash : {"''", "'../../evil'", "'12 34'"}) expect_refused(std::string("hash = ") + hash);
+  expect_refused("facets = '../../evil'");
+}
+
 TEST_F(RunTest, WhatAnotherVersionCouldNotReadIsTriedAgain) {
   make_run();
   store::Run run = store::Run::write(folder_);
@@ -211,11 +235,11 @@ TEST_F(RunTest, FragmentPaintedOtherwiseLosesItsPairsAlone) {
   store::Run run = store::Run::write(folder_);
   run.save(pair_of(run.fragments(), 1, 2), {candidate_});
   std::vector<Fragment> painted = three_;
-  painted[1].facets = "paint";  // a.ply
+  painted[1].facets = "9a1d";  // a.ply
   EXPECT_EQ(run.begin(kParameters, painted).fragments, (Changes{{"a.ply", store::Run::Change::Paint}}));
   ASSERT_EQ(run.pairs().size(), 1U);
   EXPECT_EQ(run.pairs()[0].name_a, "b.ply");
-  EXPECT_EQ(run.fragments()[0].facets, "paint");
+  EXPECT_EQ(run.fragments()[0].facets, "9a1d");
   EXPECT_TRUE(run.begin(kParameters, painted).fragments.empty());
 }
 

@@ -1,13 +1,18 @@
 #include "store/detail/rows.hpp"
 
 #include <fmt/format.h>
+#include <sqlite3.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <string>
 
+#include "core/error.hpp"
+#include "core/utf8.hpp"
 #include "store/detail/schema.hpp"
 
 namespace rejoin::store::detail {
@@ -47,6 +52,38 @@ SearchedPairs searched_pairs_of_equals(SQLite::Database& database, const std::ve
     searched[fragment.name] = static_cast<std::size_t>(count.getColumn(0).getInt64());
   }
   return searched;
+}
+
+bool is_control(char c) {
+  return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+}
+
+bool is_hexadecimal(const std::string& text) {
+  return std::ranges::all_of(text, [](unsigned char c) { return std::isxdigit(c) != 0; });
+}
+
+/// What is wrong with a fragment, in the words of a message; empty: nothing.  Its name and hashes become those of files, and a database
+/// may be anybody's.
+std::string fault_of(const Fragment& fragment) {
+  const std::string& name = fragment.name;
+  if (name.empty() || name == "." || name == ".." || name.find('/') != std::string::npos || !is_utf8(name) ||
+      std::ranges::any_of(name, is_control))
+    return "has no name of a file";
+  if (fragment.path.empty()) return "has no path";
+  if (fragment.hash.empty() || (fragment.hash != kUnreadable && !is_hexadecimal(fragment.hash)))
+    return "has a hash that is not hexadecimal";
+  return is_hexadecimal(fragment.facets) ? "" : "has a hash of facets that is not hexadecimal";
+}
+
+/// \throws StoreError the fragment is none that rejoin writes
+void require_sound(const Fragment& fragment, SQLite::Database& database) {
+  const std::string fault = fault_of(fragment);
+  if (fault.empty()) return;
+  std::string name = valid_utf8(fragment.name);
+  std::ranges::replace_if(name, is_control, '?');
+  throw StoreError(sqlite3_db_filename(database.getHandle(), "main"),
+                   fmt::format("its fragment {} (\"{}\") {}", fragment.id, name, fault),
+                   "put its row right, or move the file away and run rejoin batch again");
 }
 
 }  // namespace
@@ -124,7 +161,10 @@ std::vector<Fragment> all_fragments(SQLite::Database& database) {
                                      has_lengths(database) ? "spacing, noise, wall" : "0, 0, 0",
                                      has_hints(database) ? "pose, facets" : "'', ''"));
   std::vector<Fragment> list;
-  while (rows.executeStep()) list.push_back(fragment_from(rows));
+  while (rows.executeStep()) {
+    list.push_back(fragment_from(rows));
+    require_sound(list.back(), database);
+  }
   return list;
 }
 

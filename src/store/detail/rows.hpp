@@ -34,6 +34,7 @@ Stage stage(const std::string& name);
 
 Fragment fragment_from(SQLite::Statement& row);
 /// By name.
+/// \throws StoreError one has no sound name of a file, no path, or a hash that is none
 std::vector<Fragment> all_fragments(SQLite::Database& database);
 /// Nothing if its rank, score or pose is none.
 std::optional<Candidate> candidate_from(SQLite::Statement& row);
