@@ -6,6 +6,7 @@
 #include <array>
 #include <atomic>
 #include <climits>
+#include <cstring>
 #include <ctime>
 #include <string>
 
@@ -16,10 +17,11 @@ namespace {
 
 // A signal handler can reach nothing but globals.
 std::atomic<Context*> g_context{nullptr};
-std::atomic<bool> g_nothing_to_save{false};
+std::atomic<const char*> g_told{nullptr};  // where there is nothing to save
 std::atomic<bool> g_has_folder{false};
 std::array<char, PATH_MAX> g_folder{};  // ends with a zero
-static_assert(std::atomic<Context*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
+static_assert(std::atomic<Context*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free &&
+              std::atomic<const char*>::is_always_lock_free);
 
 /// Once this process has ended and no thread of it writes there any more; by what may be called in a signal handler.
 void remove_folder_afterwards() {
@@ -34,10 +36,11 @@ void remove_folder_afterwards() {
 
 void on_interrupt(int signal_number) {
   Context* context = g_context.load();
-  if (g_nothing_to_save.load()) {
-    constexpr char kText[] = "\nrejoin: interrupted\n";
-    const ssize_t written = write(STDERR_FILENO, kText, sizeof kText - 1);
-    static_cast<void>(written);  // nothing else can be done about it here
+  if (const char* told = g_told.load(); told != nullptr) {
+    for (const char* text : {"\nrejoin: ", told, "\n"}) {
+      const ssize_t written = write(STDERR_FILENO, text, std::strlen(text));
+      static_cast<void>(written);  // nothing else can be done about it here
+    }
     remove_folder_afterwards();
     _exit(kInterrupted);
   }
@@ -62,12 +65,12 @@ Interrupt::~Interrupt() {
   g_context = nullptr;
 }
 
-NothingToSave::NothingToSave() {
-  g_nothing_to_save = true;
+NothingToSave::NothingToSave(const char* told) {
+  g_told = told;
 }
 
 NothingToSave::~NothingToSave() {
-  g_nothing_to_save = false;
+  g_told = nullptr;
 }
 
 RemoveWhenKilled::RemoveWhenKilled(const std::filesystem::path& folder) {

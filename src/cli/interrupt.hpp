@@ -21,7 +21,8 @@ class Interrupt {
 /// Ctrl-C ends the process at once with exit code 130.
 class NothingToSave {
  public:
-  NothingToSave();
+  /// \param told  what the user is told then, one line without its end; outlives this
+  explicit NothingToSave(const char* told = "interrupted");
   ~NothingToSave();
   NothingToSave(const NothingToSave&) = delete;
   NothingToSave& operator=(const NothingToSave&) = delete;
