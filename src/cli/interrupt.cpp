@@ -19,9 +19,10 @@ namespace {
 std::atomic<Context*> g_context{nullptr};
 std::atomic<const char*> g_told{nullptr};  // where there is nothing to save
 std::atomic<bool> g_has_folder{false};
+std::atomic<int> g_signal{SIGINT};      // the first that came
 std::array<char, PATH_MAX> g_folder{};  // ends with a zero
-static_assert(std::atomic<Context*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free &&
-              std::atomic<const char*>::is_always_lock_free);
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<Context*>::is_always_lock_free &&
+              std::atomic<bool>::is_always_lock_free && std::atomic<const char*>::is_always_lock_free);
 
 /// Once this process has ended and no thread of it writes there any more; by what may be called in a signal handler.
 void remove_folder_afterwards() {
@@ -34,6 +35,12 @@ void remove_folder_afterwards() {
   _exit(kFailure);
 }
 
+/// What shells say of a program that the signal ended.
+constexpr int exit_code_of(int signal_number) {
+  return 128 + signal_number;
+}
+static_assert(exit_code_of(SIGINT) == kInterrupted);
+
 void on_interrupt(int signal_number) {
   Context* context = g_context.load();
   if (const char* told = g_told.load(); told != nullptr) {
@@ -42,9 +49,12 @@ void on_interrupt(int signal_number) {
       static_cast<void>(written);  // nothing else can be done about it here
     }
     remove_folder_afterwards();
-    _exit(kInterrupted);
+    _exit(exit_code_of(signal_number));
   }
-  if (context != nullptr && !context->cancelled()) return context->cancel();
+  if (context != nullptr && !context->cancelled()) {
+    g_signal = signal_number;
+    return context->cancel();
+  }
   remove_folder_afterwards();
   signal(signal_number, SIG_DFL);
   raise(signal_number);  // once the handler is left
@@ -57,12 +67,20 @@ Interrupt::Interrupt(Context& context) {
   struct sigaction action = {};
   action.sa_handler = on_interrupt;
   sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, nullptr);
+  for (std::size_t k = 0; k < kSignals.size(); ++k) {
+    sigaction(kSignals[k], nullptr, &before_[k]);
+    const bool is_ignored = kSignals[k] == SIGHUP && before_[k].sa_handler == SIG_IGN;  // by nohup
+    if (!is_ignored) sigaction(kSignals[k], &action, nullptr);
+  }
 }
 
 Interrupt::~Interrupt() {
-  signal(SIGINT, SIG_DFL);
+  for (std::size_t k = 0; k < kSignals.size(); ++k) sigaction(kSignals[k], &before_[k], nullptr);
   g_context = nullptr;
+}
+
+int Interrupt::exit_code() const {
+  return exit_code_of(g_signal);
 }
 
 NothingToSave::NothingToSave(const char* told) {

@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -262,6 +263,19 @@ TEST_F(BrokenBall, RunThatNobodyKeepsLeavesNothingWhenItIsKilledByCtrlC) {
   }
   EXPECT_EQ(running.finish().exit_code, 130);
   EXPECT_TRUE(std::filesystem::is_empty(folder_ / "tmp"));
+}
+
+TEST_F(BrokenBall, RunThatNobodyKeepsLeavesNothingWhenItIsEndedByASystemOrAClosedTerminal) {
+  std::filesystem::create_directory(folder_ / "tmp");
+  for (const int signal_number : {SIGTERM, SIGHUP}) {
+    Running running({"assemble", scans_, "--json", json_, "--verbose"}, {"TMPDIR=" + (folder_ / "tmp")});
+    ASSERT_TRUE(running.wait_for_stderr("pairs are done already"));
+    EXPECT_FALSE(std::filesystem::is_empty(folder_ / "tmp"));
+    running.send(signal_number);
+    EXPECT_EQ(running.finish().exit_code, 128 + signal_number);
+    EXPECT_TRUE(std::filesystem::is_empty(folder_ / "tmp"));
+    EXPECT_FALSE(std::filesystem::exists(json_)) << "it was interrupted";
+  }
 }
 
 TEST_F(BrokenBall, WishesThatCannotBeReadAreRefusedBeforeAnyPairIsMatched) {
