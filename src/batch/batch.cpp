@@ -80,7 +80,14 @@ class Work {
 
   /// Pairs of other parameters are done again anyhow.
   std::map<std::string, std::string> copies() const {
-    return run_.parameters() == parameters_ ? run_.copies_among(equal_sized_) : store::copies(equal_sized_);
+    return run_.parameters() == parameters_ ? run_.copies_among(equal_sized_, shard_name())
+                                            : store::copies(equal_sized_);
+  }
+
+  /// As store::Run::shard() tells it.
+  std::string shard_name() const {
+    const Shard& shard = options_.shard;
+    return shard.count > 1 ? fmt::format("{}/{}", shard.number, shard.count) : "";
   }
 
   /// What the user says of a copy holds for what stands for it.
@@ -104,10 +111,7 @@ class Work {
   /// Brings the database to the inputs and options of this run.
   void begin() {
     std::vector<store::Fragment> wanted = describe_inputs();
-    const Shard& shard = options_.shard;
-    const auto forgotten = run_.begin(parameters_, wanted,
-                                      shard.count > 1 ? fmt::format("{}/{}", shard.number, shard.count) : "",
-                                      known_of_other_shards(wanted));
+    const auto forgotten = run_.begin(parameters_, wanted, shard_name(), known_of_other_shards(wanted));
     if (options_.retry) run_.forget_failures();
     for (const store::Fragment& fragment : run_.fragments()) fragments_[fragment.name] = fragment;
     count_done();

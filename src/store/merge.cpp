@@ -221,7 +221,7 @@ Lost lost_by(SQLite::Database& whole, const fs::path& output, bool complete) {
   {
     whole.exec(kMakeOurs);
     SQLite::Statement stands_for(whole, kStandsFor);
-    for (const auto& [copy, first] : detail::copies_in(whole, detail::all_fragments(whole))) {
+    for (const auto& [copy, first] : detail::copies_in(whole, detail::all_fragments(whole), "")) {
       stands_for.reset();
       stands_for.bind(1, first);
       stands_for.bind(2, copy);

@@ -252,11 +252,13 @@ std::vector<Fragment> Run::fragments() const {
 }
 
 std::map<std::string, std::string> Run::copies() const {
-  return copies_among(fragments());
+  return copies_among(fragments(), shard());
 }
 
-std::map<std::string, std::string> Run::copies_among(const std::vector<Fragment>& fragments) const {
-  return detail::guarded(access_->path, [&] { return detail::copies_in(*access_->database, fragments); });
+std::map<std::string, std::string> Run::copies_among(const std::vector<Fragment>& fragments,
+                                                     const std::string& shard) const {
+  return detail::guarded(access_->path,
+                         [&] { return detail::copies_in(*access_->database, fragments, shard); });
 }
 
 std::vector<Pair> Run::pairs() const {

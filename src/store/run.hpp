@@ -49,7 +49,9 @@ class Run {
   /// Which of the fragments are copies() of which; a whole run keeps the pairs that it has.
   std::map<std::string, std::string> copies() const;
   /// The same of the fragments of a folder, of which the run may know some under the same names and hashes.
-  std::map<std::string, std::string> copies_among(const std::vector<Fragment>& fragments) const;
+  /// \param shard  that begin() is to make of the run
+  std::map<std::string, std::string> copies_among(const std::vector<Fragment>& fragments,
+                                                  const std::string& shard = "") const;
 
   /// All pairs that are done, best score first, then by evidence and names.
   std::vector<Pair> pairs() const;

@@ -89,14 +89,15 @@ void require_sound(const Fragment& fragment, SQLite::Database& database) {
 }  // namespace
 
 std::map<std::string, std::string> copies_in(SQLite::Database& database,
-                                             const std::vector<Fragment>& fragments) {
-  const bool whole = database.execAndGet("SELECT shard FROM run").getString().empty();
-  return whole ? copies(fragments, searched_pairs_of_equals(database, fragments)) : copies(fragments);
+                                             const std::vector<Fragment>& fragments,
+                                             const std::string& shard) {
+  return shard.empty() ? copies(fragments, searched_pairs_of_equals(database, fragments)) : copies(fragments);
 }
 
 void remove_pairs_of_copies(SQLite::Database& database) {
   const std::vector<Fragment> fragments = all_fragments(database);
-  const std::map<std::string, std::string> left_out = copies_in(database, fragments);
+  const std::string shard = database.execAndGet("SELECT shard FROM run").getString();
+  const std::map<std::string, std::string> left_out = copies_in(database, fragments, shard);
   SQLite::Statement remove(database, "DELETE FROM pair WHERE a = ?1 OR b = ?1");
   for (const Fragment& fragment : fragments) {
     if (left_out.count(fragment.name) == 0) continue;

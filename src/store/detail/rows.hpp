@@ -22,8 +22,10 @@ std::string placeholders();
 
 /// copies() of fragments that may have pairs in the database, under their names and hashes.  In a shard names alone tell which stands
 /// for all, for shards know nothing of each other and have to choose alike.
+/// \param shard  for which the database is, or is to be; empty: the whole
 std::map<std::string, std::string> copies_in(SQLite::Database& database,
-                                             const std::vector<Fragment>& fragments);
+                                             const std::vector<Fragment>& fragments,
+                                             const std::string& shard);
 
 /// Removes the pairs of copies_in() and their candidates.
 void remove_pairs_of_copies(SQLite::Database& database);
