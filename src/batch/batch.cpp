@@ -50,11 +50,12 @@ class Work {
         scans_(find_scans(inputs)),
         names_(names_of(scans_)),
         equal_sized_(files_of_equal_size(scans_)),
-        copies_(store::copies(equal_sized_)),
+        run_(open(output)),
+        parameters_{version(), parameters_json(options.match), options.match.seed},
+        copies_(copies()),
         layout_(without_copies(options.layout)),
         painted_(without_copies(options.painted)),
         tiles_(tiles_of(take_copies_off(), options.shard)),
-        run_(open(output)),
         shelf_(output / kCacheName) {}
 
   Summary run() {
@@ -68,9 +69,25 @@ class Work {
   }
 
  private:
-  static store::Run open(const fs::path& output) {
+  store::Run open(const fs::path& output) const {
+    if (scans_.size() - store::copies(equal_sized_).size() < 2) {
+      throw InputError(inputs_.string(), "holds one scan only, under several names",
+                       "give a folder of different scans");
+    }
     require_writable_folder(output / kCacheName);
     return store::Run::write(output);
+  }
+
+  /// Pairs of other parameters are done again anyhow.
+  std::map<std::string, std::string> copies() const {
+    return run_.parameters() == parameters_ ? run_.copies_among(equal_sized_, shard_name())
+                                            : store::copies(equal_sized_);
+  }
+
+  /// As store::Run::shard() tells it.
+  std::string shard_name() const {
+    const Shard& shard = options_.shard;
+    return shard.count > 1 ? fmt::format("{}/{}", shard.number, shard.count) : "";
   }
 
   /// What the user says of a copy holds for what stands for it.
@@ -88,24 +105,18 @@ class Work {
     names_.erase(std::remove_if(names_.begin(), names_.end(),
                                 [this](const std::string& name) { return copies_.count(name) != 0; }),
                  names_.end());
-    if (names_.size() < 2) {
-      throw InputError(inputs_.string(), "holds one scan only, under several names",
-                       "give a folder of different scans");
-    }
     return names_.size();
   }
 
   /// Brings the database to the inputs and options of this run.
   void begin() {
     std::vector<store::Fragment> wanted = describe_inputs();
-    const store::Parameters parameters{version(), parameters_json(options_.match), options_.match.seed};
-    const Shard& shard = options_.shard;
-    const auto forgotten = run_.begin(parameters, wanted,
-                                      shard.count > 1 ? fmt::format("{}/{}", shard.number, shard.count) : "");
+    const auto forgotten = run_.begin(parameters_, wanted, shard_name(), known_of_other_shards(wanted));
     if (options_.retry) run_.forget_failures();
     for (const store::Fragment& fragment : run_.fragments()) fragments_[fragment.name] = fragment;
     count_done();
     listener_.on_start(forgotten, progress_);
+    for (const std::string& warning : options_.warnings) listener_.on_warning(warning, progress_);
     for (const std::string& left_out :
          {told_of_models(inputs_), told_of_folders(inputs_), told_of_formats(inputs_)}) {
       if (!left_out.empty()) listener_.on_warning(left_out, progress_);
@@ -190,6 +201,21 @@ class Work {
       // One that cannot be read becomes a bad fragment when it is loaded, and a changed one once it can be read.
       if (list[k].hash.empty()) list[k].hash = hash_if_readable(list[k].path);
     });
+    return list;
+  }
+
+  /// Scans of the folder that the database knows and this shard no longer needs, as others came or went.
+  std::vector<store::Fragment> known_of_other_shards(const std::vector<store::Fragment>& wanted) const {
+    std::set<std::string> needed;
+    for (const store::Fragment& fragment : wanted) needed.insert(fragment.name);
+    std::vector<store::Fragment> list;
+    for (store::Fragment& known : run_.fragments()) {
+      const auto scan = scans_.find(known.name);
+      if (scan == scans_.end() || needed.count(known.name) != 0) continue;
+      known.path = scan->second.string();
+      list.push_back(std::move(known));
+    }
+    run_side_by_side(list.size(), [&](std::size_t k) { list[k].hash = hash_if_readable(list[k].path); });
     return list;
   }
 
@@ -296,14 +322,15 @@ class Work {
   const Options& options_;
   Listener& listener_;
   const Context& context_;
-  Scans scans_;                                // copies, too
-  std::vector<std::string> names_;             // of the scans that have pairs
-  std::vector<store::Fragment> equal_sized_;   // name and hash
+  Scans scans_;                               // copies, too
+  std::vector<std::string> names_;            // of the scans that have pairs
+  std::vector<store::Fragment> equal_sized_;  // name and hash
+  store::Run run_;
+  store::Parameters parameters_;
   std::map<std::string, std::string> copies_;  // of the others, with the names that stand for them
   Layout layout_;                              // of scans that have pairs
   Painted painted_;                            // of these
   std::vector<Tile> tiles_;
-  store::Run run_;
   Shelf shelf_;
   std::map<std::string, store::Fragment> fragments_;
   std::set<std::pair<std::int64_t, std::int64_t>> done_;

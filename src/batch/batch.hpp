@@ -28,7 +28,8 @@ struct Options {
   Layout layout;
   Painted painted;  ///< breaks where they are found wrong
   Shard shard;
-  bool retry = false;  ///< try again what failed in an earlier run
+  bool retry = false;                 ///< try again what failed in an earlier run
+  std::vector<std::string> warnings;  ///< of reading these options; the listener hears them after the start
 };
 
 /// How far a run is.
@@ -71,7 +72,7 @@ std::string version();
 /// content (but for seconds), whatever the number of threads and however often it was stopped.
 ///
 /// A scan that cannot be used, or a pair that fails, is marked and the rest goes on.  A file with the content of another has no pairs: the
-/// one with the shorter name stands for both.
+/// one that has some in the database, or else the one with the shorter name, stands for both (store::Run::copies_among()).
 ///
 /// \param inputs  folder of scans
 /// \param output  folder of the run, made if it is not there: run.sqlite, fragments/, pairs.csv

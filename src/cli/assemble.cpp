@@ -18,6 +18,7 @@
 #include "cli/command.hpp"
 #include "cli/hints.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/output_stage.hpp"
 #include "cli/outputs.hpp"
 #include "core/files.hpp"
 #include "core/words.hpp"
@@ -81,38 +82,31 @@ class AssembleCommand final : public Command {
     std::optional<ConstraintsFile> constraints;
     if (constraints_) {
       constraints = open_constraints(*constraints_);
-      read_constraints(*constraints, names_in(input_));  // before hours of matching
+      const KnownNames known = names_in(input_);
+      read_constraints(*constraints, known.names, {}, known.copies);  // before hours of matching
     }
     hints_.read_into(matching, input_);
     AssembleInput input = read_assemble_input(input_, keep, matching, console, context);
     if (context.cancelled()) return stopped(console);
     require_no_loss(input, files);
-    AskedConstraints asked;
     if (constraints) {
-      asked = read_constraints(*constraints, input.names, input.bad);
+      AskedConstraints asked = read_constraints(*constraints, input.names, input.bad, input.copies);
       options_.constraints = std::move(asked.constraints);
       options_.without_pose = input.without_pose;
       for (const auto& [a, b] : options_.constraints.must_join)
         options_.without_pose.try_emplace(std::minmax(a, b), "they are not compared yet");
       input.left_out = std::move(asked.left_out);
+      named_ = std::move(asked.named);
     }
     const assembly::Result result = assembly::assemble(input.fragments, input.links, options_, context);
     console.end_progress();
     for (const std::string& warning : warnings_of(input, result)) console.warning(warning);
     if (result.cancelled) console.warning("interrupted; what follows is less than possible");
     console.result(summary(input, result));
-    for (const auto& file : files) {
-      if (result.cancelled && std::filesystem::is_regular_file(file)) {
-        console.warning(file.string() + " is kept as an earlier assembly wrote it");
-        continue;
-      }
-      write_file(file, assembly_json(input, asked.named, result));
-      console.wrote(file);
-    }
     if (out_ && !result.cancelled) {
-      if (result.groups == 0) console.result("nothing is placed, so there are no models to write\n");
-      const NothingToSave guard;
-      for (const auto& file : write_assembly(*out_, input, result)) console.wrote(file);
+      write_all(files, input, result, console);
+    } else {
+      write_json(files, input, result, console);
     }
     if (result.cancelled) return kInterrupted;
     return input.failed_now || !input.lost.empty() ? kFailure : kDone;
@@ -170,6 +164,41 @@ class AssembleCommand final : public Command {
     return files;
   }
 
+  void write_json(const std::vector<std::filesystem::path>& files, const AssembleInput& input,
+                  const assembly::Result& result, Console& console) const {
+    for (const auto& file : files) {
+      if (result.cancelled && std::filesystem::is_regular_file(file)) {
+        console.warning(file.string() + " is kept as an earlier assembly wrote it");
+        continue;
+      }
+      write_file(file, assembly_json(input, named_, result));
+      console.wrote(file);
+    }
+  }
+
+  /// Poses and models, which take the place of earlier ones together: poses beside other models would be taken for theirs.  Where there
+  /// are none, poses come first, as models may be too large for the disk.
+  void write_all(const std::vector<std::filesystem::path>& files, const AssembleInput& input,
+                 const assembly::Result& result, Console& console) const {
+    const bool any_earlier =
+        has_models(*out_) || std::ranges::any_of(files, [](const std::filesystem::path& file) {
+          std::error_code ignored;
+          return std::filesystem::exists(file, ignored);
+        });
+    if (!any_earlier) write_json(files, input, result, console);
+    if (result.groups == 0) console.result("nothing is placed, so there are no models to write\n");
+    const OutputStage stage(*out_);
+    std::vector<std::filesystem::path> models;
+    {
+      const NothingToSave guard(any_earlier ? "interrupted; what an earlier assembly wrote stays"
+                                            : "interrupted");
+      models = make_models(stage.path(), input, result);
+    }
+    if (any_earlier) write_json(files, input, result, console);
+    remove_earlier(*out_, models);
+    for (const auto& file : stage.publish(models)) console.wrote(file);
+  }
+
   /// An assembly without scans that an earlier one could place must not replace it.
   static void require_no_loss(const AssembleInput& input, const std::vector<std::filesystem::path>& files) {
     if (input.lost.empty()) return;
@@ -195,6 +224,7 @@ class AssembleCommand final : public Command {
   std::optional<std::string> constraints_;
   std::optional<std::string> json_;
   std::optional<std::string> out_;
+  NamedConstraints named_;  ///< what --constraints asks for
   Hints hints_;
   assembly::Options options_;
 };

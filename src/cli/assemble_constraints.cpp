@@ -24,8 +24,8 @@ constexpr const char* kMend = "see \"Constraints\" in docs/box-of-sherds.md";
 class Reader {
  public:
   Reader(const ConstraintsFile& file, const std::vector<std::string>& names,
-         const std::map<std::string, std::string>& unusable)
-      : path_(file.path), text_(file.text), names_(names), unusable_(unusable) {}
+         const std::map<std::string, std::string>& unusable, const std::map<std::string, std::string>& copies)
+      : path_(file.path), text_(file.text), names_(names), unusable_(unusable), copies_(copies) {}
 
   AskedConstraints read() {
     const ordered_json json = parsed();
@@ -75,13 +75,15 @@ class Reader {
   /// \return nothing if it is a fragment that cannot be used
   std::optional<std::size_t> number_of(const ordered_json& name, const std::string& place) {
     if (!name.is_string()) fail(place + " is no name of a fragment");
-    const auto unusable = unusable_.find(name.get<std::string>());
+    const auto copy = copies_.find(name.get<std::string>());
+    const std::string meant = copy == copies_.end() ? name.get<std::string>() : copy->second;
+    const auto unusable = unusable_.find(meant);
     if (unusable != unusable_.end()) {
       asked_.left_out.push_back(fmt::format("{}: {} is left out, as \"{}\" can have no place ({})", path_,
                                             place, unusable->first, unusable->second));
       return std::nullopt;
     }
-    const auto found = std::find(names_.begin(), names_.end(), name.get<std::string>());
+    const auto found = std::find(names_.begin(), names_.end(), meant);
     if (found == names_.end())
       fail(fmt::format("{}: there is no fragment \"{}\"{}", place, name.get<std::string>(),
                        hint_for(name.get<std::string>())));
@@ -135,6 +137,7 @@ class Reader {
   const std::string& text_;
   const std::vector<std::string>& names_;
   const std::map<std::string, std::string>& unusable_;
+  const std::map<std::string, std::string>& copies_;
   AskedConstraints asked_;
 };
 
@@ -145,8 +148,9 @@ ConstraintsFile open_constraints(const std::string& path) {
 }
 
 AskedConstraints read_constraints(const ConstraintsFile& file, const std::vector<std::string>& names,
-                                  const std::map<std::string, std::string>& unusable) {
-  return Reader(file, names, unusable).read();
+                                  const std::map<std::string, std::string>& unusable,
+                                  const std::map<std::string, std::string>& copies) {
+  return Reader(file, names, unusable, copies).read();
 }
 
 }  // namespace rejoin::cli

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <iterator>
 #include <map>
+#include <pugixml.hpp>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -214,13 +215,25 @@ std::string meshlab_project(const AssembleInput& input, const assembly::Result& 
   return text + " </MeshGroup>\n <RasterGroup/>\n</MeshLabProject>\n";
 }
 
-/// The fragment's name, or what a file's name has room for of it and a number.
-std::string matrix_name(const std::string& name, std::size_t number) {
-  if (name.size() <= kLongestName) return name + ".txt";
+/// What a file's name has room for of a fragment's.
+std::string shortened(const std::string& name) {
+  if (name.size() <= kLongestName) return name;
   std::size_t end = kLongestName;
   while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0) == 0x80)
     --end;  // no half of a UTF-8 letter
-  return fmt::format("{}~{}.txt", name.substr(0, end), number);
+  return name.substr(0, end);
+}
+
+/// The fragment's name, or its beginning and a number.
+std::string matrix_name(const std::string& name, std::size_t number) {
+  if (name.size() <= kLongestName) return name + ".txt";
+  return fmt::format("{}~{}.txt", shortened(name), number);
+}
+
+/// The same without a number.
+std::string stem_of_matrix(const std::string& file) {
+  std::string stem = file.substr(0, file.size() - std::min(file.size(), std::string(".txt").size()));
+  return stem.size() > kLongestName ? stem.substr(0, stem.rfind('~')) : stem;
 }
 
 /// Sixteen numbers and nothing else.
@@ -245,20 +258,31 @@ std::vector<std::filesystem::path> matrices_in(const std::filesystem::path& fold
   return files;
 }
 
-/// Matrices of an earlier assembly, which would be taken for this one's.
-/// \param written  of this one
-void remove_other_matrices(const std::filesystem::path& folder, const std::set<std::string>& written) {
-  std::error_code ignored;
-  for (const auto& file : matrices_in(folder)) {
-    if (written.count(file.filename().string()) == 0) std::filesystem::remove(file, ignored);
-  }
+/// Names of the fragments that an assembly's project places, as far as its matrices' names have them; none if there is no project.
+std::set<std::string> placed_by(const std::filesystem::path& project) {
+  pugi::xml_document document;
+  std::set<std::string> names;
+  if (!document.load_file(project.c_str())) return names;
+  for (const pugi::xml_node& layer : document.child("MeshLabProject").child("MeshGroup").children("MLMesh"))
+    names.insert(shortened(layer.attribute("label").as_string()));
+  return names;
 }
 
-/// The same of all that write_assembly() writes.
-void remove_earlier(const std::filesystem::path& folder) {
+bool has_models(const std::filesystem::path& folder) {
+  return std::ranges::any_of(kModels, [&](const char* name) {
+    std::error_code ignored;
+    return std::filesystem::exists(folder / name, ignored);
+  });
+}
+
+void remove_earlier(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& made) {
   std::error_code ignored;
+  const std::set<std::string> placed = placed_by(folder / kProject);
+  for (const auto& file : matrices_in(folder / kMatrices)) {
+    if (placed.count(stem_of_matrix(file.filename().string())) != 0) std::filesystem::remove(file, ignored);
+  }
+  if (!made.empty()) return;
   for (const char* name : kModels) std::filesystem::remove(folder / name, ignored);
-  remove_other_matrices(folder / kMatrices, {});
 }
 
 void require_models_of_assembly(const std::filesystem::path& folder) {
@@ -271,30 +295,21 @@ void require_models_of_assembly(const std::filesystem::path& folder) {
   }
 }
 
-std::vector<std::filesystem::path> write_assembly(const std::filesystem::path& folder,
-                                                  const AssembleInput& input,
-                                                  const assembly::Result& result) {
+std::vector<std::filesystem::path> make_models(const std::filesystem::path& folder,
+                                               const AssembleInput& input, const assembly::Result& result) {
   std::vector<std::filesystem::path> files;
-  if (result.groups == 0) {
-    remove_earlier(folder);
-    return files;
-  }
-  const std::filesystem::path matrices = folder / kMatrices;
-  require_writable_folder(matrices);
+  if (result.groups == 0) return files;
+  files.push_back(folder / kProject);  // first, for it names the matrices
+  write_file(files.back(), meshlab_project(input, result));
+  files.push_back(folder / kMatrices);
+  require_writable_folder(files.back());
   std::vector<mesh::Placed> parts;
-  std::set<std::string> written;
   for (std::size_t k = 0; k < input.names.size(); ++k) {
     const assembly::Placement& placement = result.placements[k];
     if (placement.group < 0) continue;
     parts.push_back({input.names[k], &input.fragments[k].surface, placement.pose});
-    const std::string name = matrix_name(input.names[k], k);
-    write_file(matrices / name, matrix_text(placement.pose));
-    written.insert(name);
+    write_file(files.back() / matrix_name(input.names[k], k), matrix_text(placement.pose));
   }
-  remove_other_matrices(matrices, written);
-  files.push_back(matrices);
-  files.push_back(folder / kProject);
-  write_file(files.back(), meshlab_project(input, result));
   for (const char* name : {mesh::kAssembledGlb, mesh::kAssembledPly}) {
     files.push_back(folder / name);
     mesh::save_scene(files.back(), parts);

@@ -29,14 +29,21 @@ std::string assembly_json(const AssembleInput& input, const NamedConstraints& co
 std::string meshlab_project(const AssembleInput& input, const assembly::Result& result);
 
 /// Whoever has a scan of such a name must not lose it.
-/// \throws IoError the folder has a file that write_assembly() would replace, and no matrices, which every assembly has
+/// \throws IoError the folder has a file that would be replaced by one of make_models(), and no matrices, which every assembly has
 void require_models_of_assembly(const std::filesystem::path& folder);
 
-/// assembled.glb, .ply, .mlp and .png, and a folder "cloudcompare" with a matrix a fragment; those of an earlier assembly there are
-/// removed.
-/// \return what was written; of the matrices the folder
+/// Whether an assembly's models lie in the folder.
+bool has_models(const std::filesystem::path& folder);
+
+/// Makes assembled.mlp, .glb, .ply and .png, and a folder "cloudcompare" with a matrix a fragment; nothing of nothing.
+/// \return what was made; of the matrices the folder
 /// \throws IoError
-std::vector<std::filesystem::path> write_assembly(const std::filesystem::path& folder,
-                                                  const AssembleInput& input, const assembly::Result& result);
+std::vector<std::filesystem::path> make_models(const std::filesystem::path& folder,
+                                               const AssembleInput& input, const assembly::Result& result);
+
+/// Removes what an earlier assembly wrote and would be taken for this one's: matrices of the pieces that its project places, and
+/// of nothing (no `made`) the models, too.
+/// \param made  by make_models(), on its way into the folder
+void remove_earlier(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& made);
 
 }  // namespace rejoin::cli

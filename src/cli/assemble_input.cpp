@@ -63,13 +63,12 @@ std::vector<Loaded> load_all_kept(const std::vector<store::Fragment>& fragments,
 }
 
 /// Those that can be assembled; copies and bad ones go to `input.bad`.
-std::vector<store::Fragment> usable(const std::vector<store::Fragment>& fragments, AssembleInput& input,
-                                    Console& console) {
-  const std::map<std::string, std::string> copies = store::copies(fragments);
+std::vector<store::Fragment> usable(const store::Run& run, AssembleInput& input, Console& console) {
+  input.copies = run.copies();
   std::vector<store::Fragment> list;
-  for (const store::Fragment& fragment : fragments) {
-    const auto copy = copies.find(fragment.name);
-    if (copy != copies.end()) {
+  for (const store::Fragment& fragment : run.fragments()) {
+    const auto copy = input.copies.find(fragment.name);
+    if (copy != input.copies.end()) {
       input.bad[fragment.name] = store::reason_of_copy(copy->second);
     } else if (fragment.state == store::FragmentState::Bad) {
       console.warning(fragment.error);
@@ -85,7 +84,7 @@ std::vector<store::Fragment> usable(const std::vector<store::Fragment>& fragment
 std::map<std::int64_t, std::size_t> load_all(const store::Run& run, const fs::path& folder,
                                              AssembleInput& input, Console& console, const Context& context) {
   std::map<std::int64_t, std::size_t> number;
-  const std::vector<store::Fragment> fragments = usable(run.fragments(), input, console);
+  const std::vector<store::Fragment> fragments = usable(run, input, console);
   std::vector<Loaded> loaded = load_all_kept(fragments, folder, context);
   console.end_progress();
   for (std::size_t k = 0; k < fragments.size() && !context.cancelled(); ++k) {
@@ -208,11 +207,15 @@ bool is_run(const fs::path& folder) {
   return fs::exists(folder / store::kFileName, ignored);
 }
 
-std::vector<std::string> names_in(const fs::path& folder) {
-  if (!is_run(folder)) return batch::names_of(batch::find_scans(folder));
-  std::vector<std::string> names;
-  for (const store::Fragment& fragment : store::Run::open(folder).fragments()) names.push_back(fragment.name);
-  return names;
+KnownNames names_in(const fs::path& folder) {
+  if (!is_run(folder)) {
+    const batch::Scans scans = batch::find_scans(folder);
+    return {batch::names_of(scans), store::copies(batch::files_of_equal_size(scans))};
+  }
+  const store::Run run = store::Run::open(folder);
+  KnownNames known{{}, run.copies()};
+  for (const store::Fragment& fragment : run.fragments()) known.names.push_back(fragment.name);
+  return known;
 }
 
 AssembleInput read_assemble_input(const fs::path& folder, const std::optional<fs::path>& keep,

@@ -30,6 +30,7 @@ struct AssembleInput {
   bool failed_now = false;            ///< scans or pairs failed while a folder was matched; told
   std::vector<std::string> lost;      ///< names of scans that were matched and cannot be used any more; told
   std::map<std::string, std::string> bad;  ///< fragments that cannot be used or are copies, with the reason
+  std::map<std::string, std::string> copies;  ///< of other fragments, with the names of these
 };
 
 /// Name of poses and joins in the run's folder.
@@ -38,9 +39,15 @@ inline constexpr const char* kAssemblyName = "assembly.json";
 /// Whether the folder is that of a run.
 bool is_run(const std::filesystem::path& folder);
 
-/// Names of the scans of a run or a folder, whether they can be used or not.
+/// What constraints can name.
+struct KnownNames {
+  std::vector<std::string> names;             ///< of all scans, whether they can be used or not
+  std::map<std::string, std::string> copies;  ///< of others, with the names of those
+};
+
+/// Names of the scans of a run or a folder.
 /// \throws IoError, StoreError, InputError  there are none
-std::vector<std::string> names_in(const std::filesystem::path& folder);
+KnownNames names_in(const std::filesystem::path& folder);
 
 /// Reads a run, or matches all pairs of a folder of scans first, and loads the fragments.  Bad ones are told as warnings and
 /// left out.

@@ -11,7 +11,7 @@
 
 namespace rejoin::cli {
 
-/// Exit codes; users' scripts rely on them.
+/// Exit codes; users' scripts rely on them.  kInterrupted is that of Ctrl-C, other signals have others (Interrupt::exit_code()).
 enum ExitCode { kDone = 0, kFailure = 1, kWrongUse = 2, kInterrupted = 130 };
 
 /// The command line itself is wrong (exit code 2), as opposed to what it names.

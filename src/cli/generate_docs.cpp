@@ -38,7 +38,7 @@ std::string man_page(const CLI::App& app, const std::string& title) {
   }
   return page +
          ".SH EXIT STATUS\n0 done (also when the answer is \"no join\"), 1 failure, 2 wrong use, 130 "
-         "interrupted.\n";
+         "interrupted by Ctrl-C (143 by SIGTERM, 129 by SIGHUP).\n";
 }
 
 /// The visible long options of a command, separated by blanks.

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 #include "batch/inputs.hpp"
 #include "cli/command.hpp"
@@ -19,7 +20,11 @@ void Hints::define(CLI::App& app) {
 }
 
 void Hints::read_into(batch::Options& options, const std::string& scans) const {
-  if (layout_) options.layout = read_layout(*layout_, batch::names_of(batch::find_scans(scans)));
+  if (layout_) {
+    LaidScans laid = read_layout(*layout_, batch::find_scans(scans));
+    options.layout = std::move(laid.layout);
+    options.warnings = std::move(laid.warnings);
+  }
   if (!painted_) return;
   std::error_code absent;
   if (std::filesystem::equivalent(*painted_, scans, absent)) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <atomic>
 #include <climits>
+#include <cstring>
 #include <ctime>
 #include <string>
 
@@ -16,10 +17,12 @@ namespace {
 
 // A signal handler can reach nothing but globals.
 std::atomic<Context*> g_context{nullptr};
-std::atomic<bool> g_nothing_to_save{false};
+std::atomic<const char*> g_told{nullptr};  // where there is nothing to save
 std::atomic<bool> g_has_folder{false};
+std::atomic<int> g_signal{SIGINT};      // the first that came
 std::array<char, PATH_MAX> g_folder{};  // ends with a zero
-static_assert(std::atomic<Context*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<Context*>::is_always_lock_free &&
+              std::atomic<bool>::is_always_lock_free && std::atomic<const char*>::is_always_lock_free);
 
 /// Once this process has ended and no thread of it writes there any more; by what may be called in a signal handler.
 void remove_folder_afterwards() {
@@ -32,16 +35,26 @@ void remove_folder_afterwards() {
   _exit(kFailure);
 }
 
+/// What shells say of a program that the signal ended.
+constexpr int exit_code_of(int signal_number) {
+  return 128 + signal_number;
+}
+static_assert(exit_code_of(SIGINT) == kInterrupted);
+
 void on_interrupt(int signal_number) {
   Context* context = g_context.load();
-  if (g_nothing_to_save.load()) {
-    constexpr char kText[] = "\nrejoin: interrupted\n";
-    const ssize_t written = write(STDERR_FILENO, kText, sizeof kText - 1);
-    static_cast<void>(written);  // nothing else can be done about it here
+  if (const char* told = g_told.load(); told != nullptr) {
+    for (const char* text : {"\nrejoin: ", told, "\n"}) {
+      const ssize_t written = write(STDERR_FILENO, text, std::strlen(text));
+      static_cast<void>(written);  // nothing else can be done about it here
+    }
     remove_folder_afterwards();
-    _exit(kInterrupted);
+    _exit(exit_code_of(signal_number));
   }
-  if (context != nullptr && !context->cancelled()) return context->cancel();
+  if (context != nullptr && !context->cancelled()) {
+    g_signal = signal_number;
+    return context->cancel();
+  }
   remove_folder_afterwards();
   signal(signal_number, SIG_DFL);
   raise(signal_number);  // once the handler is left
@@ -54,20 +67,28 @@ Interrupt::Interrupt(Context& context) {
   struct sigaction action = {};
   action.sa_handler = on_interrupt;
   sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, nullptr);
+  for (std::size_t k = 0; k < kSignals.size(); ++k) {
+    sigaction(kSignals[k], nullptr, &before_[k]);
+    const bool is_ignored = kSignals[k] == SIGHUP && before_[k].sa_handler == SIG_IGN;  // by nohup
+    if (!is_ignored) sigaction(kSignals[k], &action, nullptr);
+  }
 }
 
 Interrupt::~Interrupt() {
-  signal(SIGINT, SIG_DFL);
+  for (std::size_t k = 0; k < kSignals.size(); ++k) sigaction(kSignals[k], &before_[k], nullptr);
   g_context = nullptr;
 }
 
-NothingToSave::NothingToSave() {
-  g_nothing_to_save = true;
+int Interrupt::exit_code() const {
+  return exit_code_of(g_signal);
+}
+
+NothingToSave::NothingToSave(const char* told) {
+  g_told = told;
 }
 
 NothingToSave::~NothingToSave() {
-  g_nothing_to_save = false;
+  g_told = nullptr;
 }
 
 RemoveWhenKilled::RemoveWhenKilled(const std::filesystem::path& folder) {

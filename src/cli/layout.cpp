@@ -24,21 +24,18 @@ constexpr const char* kNoScale =
 
 class Reader {
  public:
-  Reader(const std::string& path, const std::vector<std::string>& names)
-      : path_(path), names_(names), text_(read_json_text(path, kMend)) {}
+  Reader(const std::string& path, const batch::Scans& scans)
+      : path_(path), scans_(scans), names_(batch::names_of(scans)), text_(read_json_text(path, kMend)) {}
 
-  batch::Layout read() {
+  LaidScans read() {
     const std::size_t first = text_.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
     if (first != std::string::npos && text_[first] == '<') {
       read_project();
     } else {
       read_json();
     }
-    if (layout_.size() < 2)
-      fail(fmt::format("lays {} of the folder's scans",
-                       layout_.empty() ? std::string("none") : "only " + layout_.begin()->first),
-           "lay two or more beside each other");
-    return layout_;
+    if (laid_.layout.size() < 2) refuse_too_few();
+    return laid_;
   }
 
  private:
@@ -46,12 +43,21 @@ class Reader {
     throw InputError(path_, problem, mend);
   }
 
+  [[noreturn]] void refuse_too_few() const {
+    const std::string lays =
+        fmt::format("lays {} of the folder's scans{}",
+                    laid_.layout.empty() ? "none" : "only " + laid_.layout.begin()->first,
+                    laid_.warnings.empty() ? "" : " as they are now");
+    fail(lays, laid_.warnings.empty() ? "lay two or more beside each other"
+                                      : "assemble the scans as they are, or leave --layout out");
+  }
+
   void lay(const std::string& name, const std::optional<Rigid>& pose, const char* mend) {
     if (std::find(names_.begin(), names_.end(), name) == names_.end())
       fail(fmt::format("lays \"{}\", which is no scan of the folder", name),
            "take it out, or hide it in MeshLab");
     if (!pose) fail(fmt::format("the matrix of \"{}\" {}", name, kNoRigid), mend);
-    if (!layout_.emplace(name, *pose).second)
+    if (!laid_.layout.emplace(name, *pose).second)
       fail(fmt::format("lays \"{}\" twice", name), "leave one of the two");
   }
 
@@ -99,7 +105,7 @@ class Reader {
     if (!constraints.must_join.empty() || !constraints.must_not_join.empty())
       fail("says which pairs must or must not join, which no search by a layout heeds",
            "leave its \"poses\" alone here, and give the rest to rejoin assemble --constraints");
-    for (const auto& [number, pose] : constraints.pinned) layout_.emplace(names_[number], pose);
+    for (const auto& [number, pose] : constraints.pinned) laid_.layout.emplace(names_[number], pose);
   }
 
   void read_assembly(const ordered_json& json) {
@@ -110,20 +116,35 @@ class Reader {
       if (!fragment.is_object() || !fragment.contains("pose") || fragment["pose"].is_null()) continue;
       if (fragment.value("group", ordered_json(0)) != 0)
         continue;  // beside the first object, for the eye alone
+      if (is_of_another_scan(name, fragment)) {
+        laid_.warnings.push_back(fmt::format(
+            "{}: the place of {} is left out, as the scan is another than the one that was assembled", path_,
+            name));
+        continue;
+      }
       lay(name, rigid_from_json(fragment["pose"]), "make it again with rejoin assemble");
     }
   }
 
+  /// The origin of a scan that was exported again may lie elsewhere, and its pose with it.
+  bool is_of_another_scan(const std::string& name, const ordered_json& fragment) const {
+    const auto scan = scans_.find(name);
+    if (scan == scans_.end() || !fragment.contains("scan") || !fragment["scan"].is_string()) return false;
+    const std::string now = batch::hash_if_readable(scan->second);
+    return now != store::kUnreadable && now != fragment["scan"].get<std::string>();
+  }
+
   const std::string& path_;
-  const std::vector<std::string>& names_;
+  const batch::Scans& scans_;
+  std::vector<std::string> names_;
   std::string text_;
-  batch::Layout layout_;
+  LaidScans laid_;
 };
 
 }  // namespace
 
-batch::Layout read_layout(const std::string& path, const std::vector<std::string>& names) {
-  return Reader(path, names).read();
+LaidScans read_layout(const std::string& path, const batch::Scans& scans) {
+  return Reader(path, scans).read();
 }
 
 }  // namespace rejoin::cli

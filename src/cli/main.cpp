@@ -103,7 +103,8 @@ int run(const std::vector<Entry>& entries, const Common& common) {
   for (const Entry& entry : entries) {
     if (!entry.app->parsed()) continue;
     require_sound_paths(*entry.app);
-    return entry.command->run(console, context);
+    const ExitCode code = entry.command->run(console, context);
+    return code == kInterrupted ? interrupt.exit_code() : code;
   }
   throw UsageError("command line", "no command is given", "see rejoin --help");
 }

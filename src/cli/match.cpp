@@ -3,10 +3,13 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "cli/arguments.hpp"
 #include "cli/command.hpp"
@@ -14,6 +17,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/match_json.hpp"
 #include "cli/match_options.hpp"
+#include "cli/output_stage.hpp"
 #include "cli/outputs.hpp"
 #include "cli/pose_file.hpp"
 #include "core/files.hpp"
@@ -156,10 +160,14 @@ class MatchCommand final : public Command {
     tell_times(console, a, b, result);
     const double seconds = seconds_since(begin);
     if (json_ && result.cancelled && keeps_earlier(*json_, {*json_}, "match", console)) json_.reset();
-    if (json_) write_file(*json_, match_json(a, b, options, result, seconds));
+    std::string json;
+    if (json_) json = match_json(a, b, options, result, seconds);
     console.result(summary(result, near_.has_value()));
-    if (json_) console.wrote(*json_);
-    if (out_) write_folder(console, a, b, result);
+    if (out_) {
+      write_all(console, a, b, result, json);
+    } else {
+      write_json(console, json);
+    }
     return result.cancelled ? kInterrupted : kDone;
   }
 
@@ -196,20 +204,59 @@ class MatchCommand final : public Command {
     return poses;
   }
 
-  void write_folder(Console& console, const match::Fragment& a, const match::Fragment& b,
-                    const match::Result& result) const {
-    const NothingToSave guard;
-    std::vector<std::filesystem::path> files;
-    if (!result.cancelled) {
-      files = report::write_match_outputs(*out_, a, b, result);
-    } else if (!keeps_earlier(*out_, report::match_outputs(*out_), "match", console) &&
-               !result.candidates.empty()) {
-      // The joined model only: pictures take longer than a user who wants to stop will wait.
-      files.emplace_back(std::filesystem::path(*out_) / mesh::kJoinedPly);
-      mesh::save_scene(files[0],
-                       {{path_a_, &a.surface, Rigid{}}, {path_b_, &b.surface, result.candidates[0].pose}});
+  void write_json(Console& console, const std::string& json) const {
+    if (!json_) return;
+    write_file(*json_, json);
+    console.wrote(*json_);
+  }
+
+  bool any_earlier() const {
+    std::vector<std::filesystem::path> files = report::match_outputs(*out_);
+    if (json_) files.emplace_back(*json_);
+    return std::ranges::any_of(files, [](const std::filesystem::path& file) {
+      std::error_code ignored;
+      return std::filesystem::exists(file, ignored);
+    });
+  }
+
+  /// JSON and the folder's files, which take the place of earlier ones together.  Where there are none, the JSON comes first, as the
+  /// others may be too large for the disk.
+  void write_all(Console& console, const match::Fragment& a, const match::Fragment& b,
+                 const match::Result& result, const std::string& json) const {
+    const bool replaces = any_earlier();
+    if (!replaces) write_json(console, json);
+    const OutputStage stage(*out_);
+    std::vector<std::filesystem::path> made;
+    {
+      const NothingToSave guard(replaces ? "interrupted; what an earlier match wrote stays" : "interrupted");
+      made = make_files(console, stage.path(), a, b, result);
     }
-    for (const std::filesystem::path& file : files) console.wrote(file);
+    if (replaces) write_json(console, json);
+    if (!result.cancelled) remove_others(made);
+    for (const std::filesystem::path& file : stage.publish(made)) console.wrote(file);
+  }
+
+  std::vector<std::filesystem::path> make_files(Console& console, const std::filesystem::path& folder,
+                                                const match::Fragment& a, const match::Fragment& b,
+                                                const match::Result& result) const {
+    if (!result.cancelled) return report::write_match_outputs(folder, a, b, result);
+    if (keeps_earlier(*out_, report::match_outputs(*out_), "match", console) || result.candidates.empty())
+      return {};
+    // The joined model only: pictures take longer than a user who wants to stop will wait.
+    const std::filesystem::path joined = folder / mesh::kJoinedPly;
+    mesh::save_scene(joined,
+                     {{path_a_, &a.surface, Rigid{}}, {path_b_, &b.surface, result.candidates[0].pose}});
+    return {joined};
+  }
+
+  /// What an earlier match left besides would be taken for this one's.
+  void remove_others(const std::vector<std::filesystem::path>& made) const {
+    std::error_code ignored;
+    for (const std::filesystem::path& file : report::match_outputs(*out_)) {
+      const bool stays = std::ranges::any_of(
+          made, [&](const std::filesystem::path& one) { return one.filename() == file.filename(); });
+      if (!stays) std::filesystem::remove(file, ignored);
+    }
   }
 
   static void tell_times(Console& console, const match::Fragment& a, const match::Fragment& b,

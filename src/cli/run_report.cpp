@@ -93,7 +93,7 @@ class AssemblyReader {
       if (!change_.empty() || !value.is_object()) return;
       if (!number) {
         change_ = "the assembly was made with " + name + ", which the run no longer has";
-      } else if (const std::string& hash = stored_[*number].hash; value.value("scan", hash) != hash) {
+      } else if (is_of_another_scan(*number, value)) {
         change_ = "the assembly was made with another scan of " + name;
       }
     }
@@ -103,11 +103,22 @@ class AssemblyReader {
     }
   }
 
+  /// Poses and joins of another scan say nothing of this one.
+  bool is_of_another_scan(std::size_t number, const ordered_json& value) const {
+    const std::string& hash = stored_[number].hash;
+    return value.value("scan", hash) != hash;
+  }
+
   void place(const std::string& name, const ordered_json& value) {
     const auto number = number_of(name);
     if (!number) return;
     report::ReportFragment& fragment = report_.fragments[*number];
     if (!value.is_object()) refuse(path_, "fragment \"" + name + "\" is no object");
+    if (is_of_another_scan(*number, value)) {
+      if (fragment.reason.empty()) fragment.reason = "the assembly has another scan of it (rejoin assemble)";
+      replaced_.insert(*number);
+      return;
+    }
     if (change_.empty()) fragment.reason = value.value("reason", fragment.reason);
     const int group = value.value("group", -1);
     if (group < 0 || !value.contains("pose") || value["pose"].is_null()) return;
@@ -125,7 +136,7 @@ class AssemblyReader {
     const auto a = number_of(join["a"]);
     const auto b = number_of(join["b"]);
     if (join["a"] == join["b"]) refuse(path_, "a join is of " + join["a"].dump() + " with itself");
-    if (!a || !b) return;
+    if (!a || !b || replaced_.count(*a) != 0 || replaced_.count(*b) != 0) return;
     const auto same = [&](const report::ReportPair& pair) {
       return std::minmax(pair.a, pair.b) == std::minmax(*a, *b);
     };
@@ -215,7 +226,8 @@ class AssemblyReader {
   report::RunReport& report_;
   const Numbers& numbers_;
   const std::vector<store::Fragment>& stored_;
-  std::string change_;  ///< of the run since the assembly was made
+  std::string change_;              ///< of the run since the assembly was made
+  std::set<std::size_t> replaced_;  ///< fragments whose scan is another since
 };
 
 /// The scan's surface, or the one that the run keeps of it where that is no longer what was matched.
@@ -241,9 +253,10 @@ void warn(report::RunReport& report, Console& console, const std::string& text) 
 }
 
 /// \param stored  of the report's fragments, in their order
+/// \param copies  of these, which need no surface
 void read_scans(report::RunReport& report, const std::vector<store::Fragment>& stored,
-                const std::filesystem::path& folder, Console& console, const Context& context) {
-  const std::map<std::string, std::string> copies = store::copies(stored);
+                const std::map<std::string, std::string>& copies, const std::filesystem::path& folder,
+                Console& console, const Context& context) {
   const std::size_t count = report.fragments.size();
   const std::size_t faces =
       std::clamp(kMostFaces / std::max<std::size_t>(1, count), kLeastFaces, kFragmentFaces);
@@ -404,7 +417,7 @@ report::RunReport read_run(const std::filesystem::path& run, std::size_t listed,
   report.title = std::filesystem::weakly_canonical(folder).filename().string();
   Numbers numbers;
   const std::vector<store::Fragment> fragments = database.fragments();
-  const std::map<std::string, std::string> copies = store::copies(fragments);
+  const std::map<std::string, std::string> copies = database.copies();
   for (const auto& [copy, first] : copies) report.warnings.push_back(store::told_of_copy(copy, first));
   for (std::string& doubt : batch::doubts_about_units(fragments)) report.warnings.push_back(std::move(doubt));
   for (const store::Fragment& stored : fragments) {
@@ -438,7 +451,7 @@ report::RunReport read_run(const std::filesystem::path& run, std::size_t listed,
   const std::string missing = store::told(remains);
   if (!missing.empty()) report.warnings.push_back(missing);
   add_reasons(report, not_placed, remains);
-  read_scans(report, fragments, folder, console, context);
+  read_scans(report, fragments, copies, folder, console, context);
   return report;
 }
 

@@ -32,15 +32,25 @@ INSERT OR REPLACE INTO main.pair (a, b, stage, evidence, score, verdict, seconds
   WHERE p.stage <> 'failed' OR NOT EXISTS (SELECT 1 FROM main.pair q WHERE q.a = x.id AND q.b = y.id)
 )sql";
 
-/// Pairs of the attached run that ours lacks, or of which it has a failure only, by the fragments' names; those of fragments that ours
-/// does not have only where the parameter is 1.
+/// Fragments of the attached run, by their ids there: ours of the same name, and the one that stands for it if it is a copy.
+constexpr const char* kMakeOurs = R"sql(
+CREATE TEMP TABLE ours (theirs INTEGER PRIMARY KEY, id INTEGER NOT NULL, stands INTEGER NOT NULL);
+INSERT INTO ours SELECT u.id, x.id, x.id FROM part.fragment u JOIN main.fragment x ON x.name = u.name;
+)sql";
+
+constexpr const char* kStandsFor =
+    "UPDATE ours SET stands = (SELECT id FROM main.fragment WHERE name = ?) "
+    "WHERE id = (SELECT id FROM main.fragment WHERE name = ?)";
+
+/// Pairs of the attached run that ours lacks, or of which it has a failure only; those of fragments that ours does not have only where
+/// the parameter is 1.  What a copy had and the one that stands for it has is not lost.
 constexpr const char* kCountLost = R"sql(
-SELECT count(*) FROM part.pair p
-  JOIN part.fragment u ON u.id = p.a JOIN part.fragment v ON v.id = p.b
-  WHERE (? = 1 OR (u.name IN (SELECT name FROM main.fragment) AND v.name IN (SELECT name FROM main.fragment)))
-    AND NOT EXISTS (SELECT 1 FROM main.pair q
-    JOIN main.fragment x ON x.id = q.a JOIN main.fragment y ON y.id = q.b
-    WHERE x.name = u.name AND y.name = v.name AND (q.stage <> 'failed' OR p.stage = 'failed'))
+SELECT count(*) FROM part.pair p LEFT JOIN ours u ON u.theirs = p.a LEFT JOIN ours v ON v.theirs = p.b
+  WHERE (? = 1 OR (u.id IS NOT NULL AND v.id IS NOT NULL)) AND (u.stands IS NULL OR u.stands IS NOT v.stands)
+    AND NOT EXISTS (SELECT 1 FROM main.pair q WHERE q.a IN (u.id, u.stands) AND q.b IN (v.id, v.stands)
+                    AND (q.stage <> 'failed' OR p.stage = 'failed'))
+    AND NOT EXISTS (SELECT 1 FROM main.pair q WHERE q.a IN (v.id, v.stands) AND q.b IN (u.id, u.stands)
+                    AND (q.stage <> 'failed' OR p.stage = 'failed'))
 )sql";
 
 std::string copy_candidates() {
@@ -209,6 +219,14 @@ Lost lost_by(SQLite::Database& whole, const fs::path& output, bool complete) {
   attach.exec();
   Lost lost;
   {
+    whole.exec(kMakeOurs);
+    SQLite::Statement stands_for(whole, kStandsFor);
+    for (const auto& [copy, first] : detail::copies_in(whole, detail::all_fragments(whole), "")) {
+      stands_for.reset();
+      stands_for.bind(1, first);
+      stands_for.bind(2, copy);
+      stands_for.exec();
+    }
     SQLite::Statement pairs(whole, kCountLost);
     pairs.bind(1, complete ? 0 : 1);
     pairs.executeStep();
@@ -216,7 +234,7 @@ Lost lost_by(SQLite::Database& whole, const fs::path& output, bool complete) {
     for (SQLite::Statement gone(whole, kGone); gone.executeStep();)
       lost.fragments.push_back(gone.getColumn(0).getString());
   }
-  whole.exec("DETACH part");
+  whole.exec("DROP TABLE ours; DETACH part");
   return lost;
 }
 
@@ -294,9 +312,9 @@ Merged merge(const std::vector<fs::path>& runs, const fs::path& output) {
     SQLite::Database database(path, SQLite::OPEN_READWRITE | SQLite::OPEN_URI);
     database.exec("PRAGMA foreign_keys = ON");
     for (const fs::path& folder : runs) copy_pairs(database, folder);
-    detail::remove_pairs_of_copies(database);
     Lost lost = lost_by(database, output, absent && absent->empty());
     require_nothing_lost(lost.pairs, output);
+    detail::remove_pairs_of_copies(database);
     Merged made = count(database);
     made.gone = std::move(lost.fragments);
     return made;

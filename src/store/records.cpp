@@ -6,11 +6,21 @@
 
 namespace rejoin::store {
 
-std::map<std::string, std::string> copies(const std::vector<Fragment>& fragments) {
+std::map<std::string, std::string> copies(const std::vector<Fragment>& fragments,
+                                          const SearchedPairs& searched) {
+  const auto pairs_of = [&searched](const std::string& name) {
+    const auto known = searched.find(name);
+    return known == searched.end() ? 0 : known->second;
+  };
+  const auto stands = [&pairs_of](const std::string& name, const std::string& other) {
+    const std::size_t pairs = pairs_of(name);
+    const std::size_t pairs_of_other = pairs_of(other);
+    return pairs != pairs_of_other ? pairs > pairs_of_other : stands_for_both(name, other);
+  };
   std::map<std::string, std::string> first;  // by hash
   for (const Fragment& fragment : fragments) {
     std::string& name = first.try_emplace(fragment.hash, fragment.name).first->second;
-    if (stands_for_both(fragment.name, name)) name = fragment.name;
+    if (stands(fragment.name, name)) name = fragment.name;
   }
   std::map<std::string, std::string> result;
   for (const Fragment& fragment : fragments) {

@@ -1,6 +1,7 @@
 /// What a run's database holds, as plain values.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -49,10 +50,14 @@ struct Fragment {
   bool operator==(const Fragment&) const = default;
 };
 
-/// Fragments whose file has the content of another, with the name of the one that stands for both (stands_for_both()).
-/// Copies have no pairs.
+/// How many pairs of a fragment were searched, by its name; 0 of those that are not in it.
+using SearchedPairs = std::map<std::string, std::size_t>;
+
+/// Fragments whose file has the content of another, with the name of the one that stands for both: the one with more searched pairs,
+/// so that none is lost by a copy that comes later; of equals stands_for_both() tells.  Copies have no pairs.
 /// \param fragments  name and hash are used
-std::map<std::string, std::string> copies(const std::vector<Fragment>& fragments);
+std::map<std::string, std::string> copies(const std::vector<Fragment>& fragments,
+                                          const SearchedPairs& searched = {});
 
 /// What is told of a run with a copy: a sentence without its full stop.
 /// \param first  stands for both

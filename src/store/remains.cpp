@@ -19,7 +19,7 @@ std::string not_compared(std::size_t missing, const char* of, std::size_t all) {
 
 Remains remains(const Run& run) {
   const std::vector<Fragment> fragments = run.fragments();
-  const std::map<std::string, std::string> left_out = copies(fragments);
+  const std::map<std::string, std::string> left_out = run.copies();
   std::map<std::int64_t, std::size_t> missing;  // by id
   const std::size_t count = fragments.size() - left_out.size();
   Remains result;

@@ -83,30 +83,47 @@ bool has_results(SQLite::Database& database) {
   return database.execAndGet("SELECT EXISTS (SELECT 1 FROM pair WHERE stage <> 'failed')").getInt() != 0;
 }
 
-/// A folder of other scans by mistake would empty the run, and many objects have a 1.ply and a 2.ply.  A shard may get all others,
-/// when scans came or went.
-void require_some_known(SQLite::Database& database, const std::map<std::string, Fragment>& wanted,
-                        const std::string& shard, const std::string& path) {
-  const std::vector<Fragment> known = detail::all_fragments(database);
-  std::string first_named;
-  std::size_t named = 0;
-  std::size_t same = 0;
+/// What a folder has of the scans that a database knows.
+struct Recognised {
+  std::string first_named;     ///< that the folder has under the same name
+  std::size_t named = 0;       ///< how many it has so
+  std::size_t same = 0;        ///< of those, with the same content
+  std::size_t unreadable = 0;  ///< of those, whose content nobody can tell now
+};
+
+Recognised recognised(const std::vector<Fragment>& known, const std::map<std::string, Fragment>& in_folder) {
+  Recognised found;
   for (const Fragment& fragment : known) {
-    const auto found = wanted.find(fragment.name);
-    if (found == wanted.end()) continue;
-    if (named++ == 0) first_named = fragment.name;
-    same += found->second.hash == fragment.hash ? 1 : 0;
+    const auto now = in_folder.find(fragment.name);
+    if (now == in_folder.end()) continue;
+    if (found.named++ == 0) found.first_named = fragment.name;
+    found.same += now->second.hash == fragment.hash ? 1 : 0;
+    found.unreadable += now->second.hash == kUnreadable ? 1 : 0;
   }
-  if (named == 0 && shard.empty() && has_pairs(database)) {
+  return found;
+}
+
+/// A folder of other scans by mistake would empty the run, and many objects have a 1.ply and a 2.ply.
+void require_some_known(SQLite::Database& database, const std::map<std::string, Fragment>& in_folder,
+                        const std::string& path) {
+  const std::vector<Fragment> known = detail::all_fragments(database);
+  const Recognised found = recognised(known, in_folder);
+  if (found.named == 0 && has_pairs(database)) {
     throw StoreError(path,
                      fmt::format("is of other scans: {} and {} more", known.front().name, known.size() - 1),
                      "give the folder of those scans, or another --out");
   }
-  if (named > 0 && same == 0 && shard.empty() && has_results(database)) {
-    throw StoreError(
-        path, fmt::format("is of other scans of the same names: {} and {} more", first_named, named - 1),
-        "give another --out, or remove this file if all scans were made anew");
+  if (found.named == 0 || found.same > 0 || !has_results(database)) return;
+  if (found.unreadable > 0) {
+    throw StoreError(path,
+                     fmt::format("none of its scans can be read as it was: {} and {} more", found.first_named,
+                                 found.named - 1),
+                     "mount the disk that holds them, or mend their permissions, and run the command again");
   }
+  throw StoreError(
+      path,
+      fmt::format("is of other scans of the same names: {} and {} more", found.first_named, found.named - 1),
+      "give another --out, or remove this file if all scans were made anew");
 }
 
 /// A fragment's place in the user's layout, earlier and now.
@@ -234,6 +251,16 @@ std::vector<Fragment> Run::fragments() const {
   return detail::guarded(access_->path, [&] { return detail::all_fragments(*access_->database); });
 }
 
+std::map<std::string, std::string> Run::copies() const {
+  return copies_among(fragments(), shard());
+}
+
+std::map<std::string, std::string> Run::copies_among(const std::vector<Fragment>& fragments,
+                                                     const std::string& shard) const {
+  return detail::guarded(access_->path,
+                         [&] { return detail::copies_in(*access_->database, fragments, shard); });
+}
+
 std::vector<Pair> Run::pairs() const {
   std::vector<Pair> list;
   each_pair([&list](const Pair& pair) { list.push_back(pair); });
@@ -300,14 +327,16 @@ std::vector<Candidate> Run::candidates(std::int64_t a, std::int64_t b) const {
 }
 
 Run::Forgotten Run::begin(const Parameters& parameters, const std::vector<Fragment>& fragments,
-                          const std::string& shard) {
+                          const std::string& shard, const std::vector<Fragment>& others) {
   return detail::guarded(access_->path, [&] {
     SQLite::Database& database = *access_->database;
     SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
     require_shard(database, shard, access_->path);
     std::map<std::string, Fragment> wanted;
     for (const Fragment& fragment : fragments) wanted[fragment.name] = fragment;
-    require_some_known(database, wanted, shard, access_->path);
+    std::map<std::string, Fragment> in_folder = wanted;
+    for (const Fragment& fragment : others) in_folder.emplace(fragment.name, fragment);
+    require_some_known(database, in_folder, access_->path);
     Forgotten forgotten;
     if (read_parameters(database) != parameters) {
       forgotten.parameters = has_pairs(database);

@@ -46,6 +46,13 @@ class Run {
   /// All fragments, by name.
   std::vector<Fragment> fragments() const;
 
+  /// Which of the fragments are copies() of which; a whole run keeps the pairs that it has.
+  std::map<std::string, std::string> copies() const;
+  /// The same of the fragments of a folder, of which the run may know some under the same names and hashes.
+  /// \param shard  that begin() is to make of the run
+  std::map<std::string, std::string> copies_among(const std::vector<Fragment>& fragments,
+                                                  const std::string& shard = "") const;
+
   /// All pairs that are done, best score first, then by evidence and names.
   std::vector<Pair> pairs() const;
   /// The same, one at a time: there may be more than memory holds.
@@ -80,10 +87,11 @@ class Run {
   /// Where poses changed, the pairs go whose fragments both have one, or had.
   /// \param fragments  name, path, hash, pose and facets are used
   /// \param shard      as shard() tells it
-  /// \throws StoreError also if the database has pairs of another shard, or of other scans or contents altogether, for they
-  ///         would be lost
+  /// \param others     of the same folder, but of other shards alone, as far as the database knows them; name and hash are used
+  /// \throws StoreError also if the database has pairs of another shard, or if the folder has none of its scans, or all with other
+  ///         contents or unreadable, for the pairs would be lost
   Forgotten begin(const Parameters& parameters, const std::vector<Fragment>& fragments,
-                  const std::string& shard = "");
+                  const std::string& shard = "", const std::vector<Fragment>& others = {});
 
   /// Removes the pairs that failed, and sets the fragments that are bad to waiting, so that they are tried again.
   void forget_failures();

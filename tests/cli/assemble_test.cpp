@@ -3,7 +3,10 @@
 #include <sys/stat.h>
 
 #include <chrono>
+#include <csignal>
+#include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
@@ -116,6 +119,87 @@ TEST_F(BrokenBall, AssembleOfAFolderMatchesAndPutsItTogether) {
   }
 }
 
+/// What lies in a folder, and below it, with its content; but for the database, beside which SQLite keeps files for as long as it reads.
+std::map<std::string, std::string> contents_of(const std::string& folder) {
+  std::map<std::string, std::string> contents;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file() && entry.path().filename().string().find("run.sqlite") != 0)
+      contents[entry.path().string()] = read_file(entry.path().string());
+  }
+  return contents;
+}
+
+/// Two assemblies of one run: the second would leave a piece out.
+class SecondAssembly : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    home_ = new TemporaryFolder;
+    const std::string scans = *home_ / "scans";
+    mesh::save(*home_ / "ball.ply", mesh::test::icosphere(10.0F, 4));
+    ASSERT_EQ(run({"shatter", *home_ / "ball.ply", "--pieces", "3", "--spacing", "2", "--roughness", "2",
+                   "--chips", "0", "--out", scans})
+                  .exit_code,
+              0);
+    ASSERT_EQ(run({"assemble", scans, "--out", *home_ / "out", "--quiet"}).exit_code, 0);
+  }
+  static void TearDownTestSuite() {
+    delete home_;
+    home_ = nullptr;
+  }
+
+  void SetUp() override {
+    std::filesystem::copy(*home_ / "out", out_, std::filesystem::copy_options::recursive);
+    write_file(
+        wishes_,
+        R"({"must_not_join": [["fragment_00.ply", "fragment_01.ply"], ["fragment_00.ply", "fragment_02.ply"]]})");
+  }
+
+  static TemporaryFolder* home_;
+  const TemporaryFolder folder_;
+  const std::string out_ = folder_ / "out";
+  const std::string run_ = out_ + "/run";
+  const std::string wishes_ = folder_ / "wishes.json";
+};
+TemporaryFolder* SecondAssembly::home_ = nullptr;
+
+TEST_F(SecondAssembly, ThatFindsTheDiskFullLeavesTheFirstAsItWas) {
+  const auto models = contents_of(out_);
+  const std::string poses = models.at(run_ + "/assembly.json");
+  ASSERT_GT(models.at(out_ + "/assembled.glb").size(), 40 * 1024U);
+  ASSERT_LT(poses.size(), 40 * 1024U);
+  const std::string command =
+      "bash -c 'ulimit -f 40; exec \"$0\" assemble \"$1\" --out \"$2\" --constraints \"$3\"' " REJOIN_PROGRAM
+      " " +
+      run_ + " " + out_ + " " + wishes_ + " > /dev/null 2> " + (folder_ / "err");
+  EXPECT_NE(std::system(command.c_str()), 0);
+  EXPECT_NE(read_file(folder_ / "err").find("assembled.glb: cannot be written"), std::string::npos)
+      << read_file(folder_ / "err");
+  EXPECT_TRUE(contents_of(out_) == models) << "and nothing that is half written";
+}
+
+TEST_F(SecondAssembly, ThatIsInterruptedWhileModelsAreMadeLeavesTheFirstAsItWas) {
+  const auto models = contents_of(out_);
+  Running second({"assemble", run_, "--out", out_, "--constraints", wishes_});
+  ASSERT_TRUE(second.wait_for_stdout("placed, "));
+  second.interrupt();
+  const Finished finished = second.finish();
+  if (finished.exit_code == 0) GTEST_SKIP() << "it was too fast";
+  EXPECT_EQ(finished.exit_code, 130) << finished.err;
+  EXPECT_NE(finished.err.find("interrupted; what an earlier assembly wrote stays"), std::string::npos)
+      << finished.err;
+  EXPECT_TRUE(contents_of(out_) == models);
+}
+
+TEST_F(SecondAssembly, RemovesTheMatricesOfTheFirstAndNoneOfTheUser) {
+  const std::string mine = out_ + "/cloudcompare/from_clicked_points.txt";
+  write_file(mine, "1 0 0 5\n0 1 0 6\n0 0 1 7\n0 0 0 1\n");
+  ASSERT_EQ(run({"assemble", run_, "--out", out_, "--constraints", wishes_}).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(mine));
+  EXPECT_FALSE(std::filesystem::exists(out_ + "/cloudcompare/fragment_00.ply.txt"));
+  EXPECT_TRUE(std::filesystem::exists(out_ + "/cloudcompare/fragment_01.ply.txt"));
+  EXPECT_FALSE(std::filesystem::exists(out_ + "/rejoin.part"));
+}
+
 TEST_F(BrokenBall, AssembleOfAFolderTellsAScanThatCannotBeUsedByItsExitCode) {
   write_file(scans_ + "/notes.ply", "Dear diary,\n");
   const Finished finished = run({"assemble", scans_, "--json", json_});
@@ -193,6 +277,19 @@ TEST_F(BrokenBall, RunThatNobodyKeepsLeavesNothingWhenItIsKilledByCtrlC) {
   }
   EXPECT_EQ(running.finish().exit_code, 130);
   EXPECT_TRUE(std::filesystem::is_empty(folder_ / "tmp"));
+}
+
+TEST_F(BrokenBall, RunThatNobodyKeepsLeavesNothingWhenItIsEndedByASystemOrAClosedTerminal) {
+  std::filesystem::create_directory(folder_ / "tmp");
+  for (const int signal_number : {SIGTERM, SIGHUP}) {
+    Running running({"assemble", scans_, "--json", json_, "--verbose"}, {"TMPDIR=" + (folder_ / "tmp")});
+    ASSERT_TRUE(running.wait_for_stderr("pairs are done already"));
+    EXPECT_FALSE(std::filesystem::is_empty(folder_ / "tmp"));
+    running.send(signal_number);
+    EXPECT_EQ(running.finish().exit_code, 128 + signal_number);
+    EXPECT_TRUE(std::filesystem::is_empty(folder_ / "tmp"));
+    EXPECT_FALSE(std::filesystem::exists(json_)) << "it was interrupted";
+  }
 }
 
 TEST_F(BrokenBall, WishesThatCannotBeReadAreRefusedBeforeAnyPairIsMatched) {

@@ -226,6 +226,20 @@ TEST_F(Batch, ShardOfAFolderThatChangedCountsItsOwnPairsAlone) {
   EXPECT_GT(pairs_in(run_), 3) << "pairs of " << before << " that the shard had of the larger folder";
 }
 
+TEST_F(Batch, ShardRefusesAFolderOfOtherScans) {
+  ASSERT_EQ(run({"batch", scans(), "--out", run_, "--shard", "1/2"}).exit_code, 0);
+  const std::string before = content(run_);
+  for (const auto& [scan, seed] :
+       {std::pair("/x.ply", 21), std::pair("/y.ply", 22), std::pair("/z.ply", 23)}) {
+    fs::create_directories(folder_ / "other");
+    mesh::save(folder_ / "other" + scan, match::testing::planted_pair(seed, kCells).a);
+  }
+  const Finished refused = run({"batch", folder_ / "other", "--out", run_, "--shard", "1/2"});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_NE(refused.err.find("is of other scans"), std::string::npos) << refused.err;
+  EXPECT_EQ(content(run_), before);
+}
+
 TEST_F(Batch, SameScanUnderTwoNamesIsToldAndLeftOutByWholeRunsAndShards) {
   make_scans(folder_ / "scans");
   fs::copy_file(folder_ / "scans/b7.ply", folder_ / "scans/a9.ply");
@@ -247,11 +261,27 @@ TEST_F(Batch, SameScanUnderTwoNamesIsToldAndLeftOutByWholeRunsAndShards) {
   write_file(folder_ / "wishes.json", R"({"must_not_join": [["b7.ply", "a7.ply"]]})");
   const Finished assembled = run({"assemble", run_, "--constraints", folder_ / "wishes.json"});
   ASSERT_EQ(assembled.exit_code, 0) << assembled.err;
-  EXPECT_NE(assembled.err.find("\"must_not_join\"[0] is left out"), std::string::npos) << assembled.err;
+  EXPECT_EQ(assembled.err.find("left out, as"), std::string::npos) << assembled.err;
   const json assembly = json::parse(read_file(run_ + "/assembly.json"));
   EXPECT_EQ(assembly["fragments"]["b7.ply"]["reason"], "is the same scan as a9.ply, which stands for both");
   EXPECT_EQ(assembly["constraints"]["must_not_join"], json::parse(R"([["b7.ply", "a7.ply"]])"));
-  EXPECT_EQ(assembly["constraints"]["problems"].size(), 1U);
+  EXPECT_EQ(assembly["constraints"]["problems"].size(), 0U);
+}
+
+TEST_F(Batch, CopyThatComesLaterTakesNoPairs) {
+  fs::copy(*home_ / "undisturbed", run_, fs::copy_options::recursive);
+  make_scans(folder_ / "scans");
+  fs::copy_file(folder_ / "scans/b7.ply", folder_ / "scans/b.ply");
+  const Finished finished = run({"batch", folder_ / "scans", "--out", run_});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_NE(finished.out.find("3 of 3 pairs done, 0 of them now"), std::string::npos) << finished.out;
+  EXPECT_NE(finished.err.find("b7.ply and b.ply are the same scan: b.ply is left out"), std::string::npos)
+      << finished.err;
+  EXPECT_TRUE(has_the_join(run_));
+  const Finished merged = run({"merge", run_, "--out", run_});
+  EXPECT_EQ(merged.exit_code, 0) << merged.err;
+  EXPECT_EQ(merged.out.find("still to be done"), std::string::npos) << merged.out;
+  EXPECT_TRUE(has_the_join(run_));
 }
 
 TEST_F(Batch, RunKnowsItsScansFromAnyFolderAndKeepsTheirSurfacesWhereTheyAreGone) {

@@ -106,6 +106,30 @@ TEST(ReadConstraints, LeavesOutWhatNamesAFragmentThatCannotBeUsedAndTellsIt) {
   EXPECT_NE(asked.left_out[1].find("\"poses\".\"copy.ply\""), std::string::npos) << asked.left_out[1];
 }
 
+TEST(ReadConstraints, CopiesAreTheFragmentsThatStandForThem) {
+  const TemporaryFolder folder;
+  const auto read_with_copy = [&](const std::string& content) {
+    write_file(folder / "wishes.json", content);
+    return read_constraints(open_constraints(folder / "wishes.json"), kNames,
+                            {{"copy.ply", "is the same scan"}, {"bad.ply", "is no mesh"}},
+                            {{"copy.ply", "a.ply"}, {"copy of bad.ply", "bad.ply"}});
+  };
+  const AskedConstraints asked = read_with_copy(
+      R"({"must_join": [["copy.ply", "c.ply"]], "must_not_join": [["copy of bad.ply", "c.ply"]],
+          "poses": {"copy.ply": [[0, -1, 0, 5], [1, 0, 0, 6], [0, 0, 1, 7], [0, 0, 0, 1]]}})");
+  ASSERT_EQ(asked.constraints.must_join.size(), 1U);
+  EXPECT_EQ(asked.constraints.must_join[0], (std::pair<std::size_t, std::size_t>(0, 2)));
+  ASSERT_EQ(asked.constraints.pinned.size(), 1U);
+  EXPECT_EQ(asked.constraints.pinned[0].first, 0U);
+  ASSERT_EQ(asked.left_out.size(), 1U);
+  EXPECT_NE(asked.left_out[0].find("\"bad.ply\" can have no place (is no mesh)"), std::string::npos)
+      << asked.left_out[0];
+  EXPECT_THROW(read_with_copy(R"({"must_join": [["copy.ply", "a.ply"]]})"), InputError);
+  EXPECT_THROW(
+      read_with_copy(R"({"must_join": [["copy.ply", "c.ply"]], "must_not_join": [["c.ply", "a.ply"]]})"),
+      InputError);
+}
+
 struct Hostile {
   const char* name;
   const char* content;

@@ -9,14 +9,14 @@
 namespace rejoin::cli::testing {
 namespace {
 
-const std::vector<std::string> kNames{"a.ply", "b & c.ply", "d.ply"};
+const batch::Scans kScans{{"a.ply", "gone/a.ply"}, {"b & c.ply", "gone/b & c.ply"}, {"d.ply", "gone/d.ply"}};
 
 constexpr const char* kTurned = "0 -1 0 5 \n1 0 0 6 \n0 0 1 7 \n0 0 0 1 \n";
 
 batch::Layout read(const std::string& content) {
   const TemporaryFolder folder;
   write_file(folder / "laid", content);
-  return read_layout(folder / "laid", kNames);
+  return read_layout(folder / "laid", kScans).layout;
 }
 
 std::string layer(const std::string& file, const std::string& matrix, const std::string& more = "") {
@@ -43,7 +43,7 @@ TEST(ReadLayout, TakesLayersOfScansThatGoByTheirFoldersNames) {
   const TemporaryFolder folder;
   write_file(folder / "laid",
              project(layer("box/07/textured.obj", kTurned) + layer("08\\source\\textured.obj", kTurned)));
-  const batch::Layout layout = read_layout(folder / "laid", {"07", "08"});
+  const batch::Layout layout = read_layout(folder / "laid", {{"07", "gone/07"}, {"08", "gone/08"}}).layout;
   EXPECT_EQ(layout.count("07"), 1U);
   EXPECT_EQ(layout.count("08"), 1U);
 }
@@ -66,6 +66,39 @@ TEST(ReadLayout, TakesThePosesOfConstraintsAndOfAnAssembly) {
                                       R"(, "group": 1}, "d.ply": {"pose": )" + rows + R"(, "group": 0}}})");
   ASSERT_EQ(assembly.size(), 2U) << "how objects lie to each other nobody knows";
   EXPECT_EQ(assembly.at("d.ply")({1, 0, 0}), glm::dvec3(5, 7, 7));
+}
+
+TEST(ReadLayout, LeavesOutScansThatTheAssemblyDidNotHave) {
+  const TemporaryFolder folder;
+  batch::Scans scans;
+  std::string fragments;
+  for (const char* name : {"a.ply", "b & c.ply", "d.ply"}) {
+    scans[name] = folder / name;
+    write_file(folder / name, name);
+    fragments += std::string(fragments.empty() ? "" : ", ") + "\"" + name +
+                 "\": {\"pose\": [[1, 0, 0, 5], [0, 1, 0, 6], [0, 0, 1, 7], [0, 0, 0, 1]], \"group\": 0, "
+                 "\"scan\": \"" +
+                 batch::content_hash(folder / name) + "\"}";
+  }
+  write_file(folder / "assembly.json",
+             R"({"schema": "rejoin.assembly/1", "fragments": {)" + fragments + "}}");
+  EXPECT_EQ(read_layout(folder / "assembly.json", scans).layout.size(), 3U);
+  write_file(folder / "d.ply", "exported again, with another origin");
+  std::filesystem::remove(folder / "b & c.ply");
+  const LaidScans laid = read_layout(folder / "assembly.json", scans);
+  EXPECT_EQ(laid.layout.size(), 2U) << "what cannot be read now may be the same";
+  EXPECT_EQ(laid.layout.count("d.ply"), 0U);
+  ASSERT_EQ(laid.warnings.size(), 1U);
+  EXPECT_NE(laid.warnings[0].find("the place of d.ply is left out"), std::string::npos) << laid.warnings[0];
+  write_file(folder / "a.ply", "so is this one");
+  try {
+    read_layout(folder / "assembly.json", scans);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("lays only b & c.ply of the folder's scans as they are now"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(ReadLayout, RefusesWhatIsNoneWithTheReason) {
@@ -103,7 +136,7 @@ TEST(ReadLayout, RefusesWhatIsNoneWithTheReason) {
       EXPECT_NE(std::string(error.what()).find("; "), std::string::npos) << "no mend: " << error.what();
     }
   }
-  EXPECT_THROW(read_layout("/nowhere/laid.mlp", kNames), IoError);
+  EXPECT_THROW(read_layout("/nowhere/laid.mlp", kScans), IoError);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 #include "planted_match.hpp"
 
 #include <csignal>
+#include <cstdlib>
+#include <filesystem>
 
 namespace rejoin::cli::testing {
 namespace {
@@ -57,6 +59,21 @@ TEST_F(MatchOutput, WarnsOfScansInDifferentUnits) {
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_NE(warnings[0].get<std::string>().find(path), std::string::npos) << warnings[0];
   EXPECT_EQ(result_of(quick({}))["warnings"].size(), 0U);
+}
+
+TEST_F(MatchOutput, DiskThatIsFullForPicturesLeavesAnEarlierMatchAsItWas) {
+  const std::string out = folder / "out";
+  std::filesystem::create_directory(out);
+  for (const std::string& earlier : {json, out + "/joined.glb", out + "/convergence.svg"})
+    write_file(earlier, "earlier");
+  std::string command = "bash -c 'ulimit -f 16; exec \"$0\" \"$@\"' " REJOIN_PROGRAM;
+  for (const std::string& word : quick({"--json", json, "--out", out})) command += " " + word;
+  EXPECT_NE(std::system((command + " > /dev/null 2> " + (folder / "err")).c_str()), 0);
+  EXPECT_NE(read_file(folder / "err").find(": cannot be written"), std::string::npos)
+      << read_file(folder / "err");
+  for (const std::string& earlier : {json, out + "/joined.glb", out + "/convergence.svg"})
+    EXPECT_EQ(read_file(earlier), "earlier") << earlier;
+  EXPECT_FALSE(std::filesystem::exists(out + "/rejoin.part"));
 }
 
 // As behind "| head -1": results are printed before the models are written.

@@ -26,7 +26,8 @@ class Outputs : public ::testing::Test, protected PlantedFiles {
     std::vector<store::Fragment> scans;
     for (const std::string& path : {a, b}) {
       scan.path = path;
-      scan.name = scan.hash = fs::path(path).filename().string();
+      scan.name = fs::path(path).filename().string();
+      scan.hash = std::to_string(std::hash<std::string>()(scan.name));
       scans.push_back(scan);
     }
     made.begin({}, scans);

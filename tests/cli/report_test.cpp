@@ -37,7 +37,7 @@ struct PlantedRun {
     store::Fragment made;
     made.name = name;
     made.path = path;
-    made.hash = name;
+    made.hash = std::to_string(std::hash<std::string>()(name));
     return made;
   }
 
@@ -198,6 +198,28 @@ TEST(Report, TellsThatTheAssemblyIsOlderThanThePairsAndTakesBackItsReasons) {
   run.assemble(assembly.dump());
   const Finished replaced = testing::run({"report", run.folder, "--pictures", "0"});
   EXPECT_NE(replaced.err.find("made with another scan of a.ply"), std::string::npos) << replaced.err;
+}
+
+TEST(Report, ShowsNoScanAtThePlaceOfTheOneBeforeIt) {
+  const PlantedRun run;
+  const json one = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
+  const json placed = {{"pose", one}, {"group", 0}, {"confidence", 0.5}};
+  json replaced = placed;
+  replaced["scan"] = "0123";
+  const json assembly = {{"schema", "rejoin.assembly/1"},
+                         {"fragments", {{"a.ply", replaced}, {"b.ply", placed}, {"gone.ply", placed}}},
+                         {"joins",
+                          {{{"a", "a.ply"}, {"b", "b.ply"}, {"score", 0.75}},
+                           {{"a", "b.ply"}, {"b", "gone.ply"}, {"score", 0.75}}}}};
+  run.assemble(assembly.dump());
+  ASSERT_EQ(testing::run({"report", run.folder, "--pictures", "0"}).exit_code, 0);
+  const json data = data_of(read_file(run.page));
+  EXPECT_TRUE(data["fragments"][0]["pose"].is_null());
+  EXPECT_EQ(data["fragments"][0]["reason"], "the assembly has another scan of it (rejoin assemble)");
+  EXPECT_FALSE(data["fragments"][1]["pose"].is_null());
+  ASSERT_EQ(data["pairs"].size(), 2U);
+  EXPECT_EQ(data["pairs"][0]["used"], false) << "a.ply and b.ply";
+  EXPECT_EQ(data["pairs"][1]["used"], true);
 }
 
 TEST(Report, TellsThatScansCameOrWentSinceTheAssembly) {

@@ -95,6 +95,10 @@ void Running::kill_now() const {
   kill(process_, SIGKILL);
 }
 
+void Running::send(int signal_number) const {
+  kill(process_, signal_number);
+}
+
 void Running::interrupt() const {
   kill(process_, SIGINT);
 }

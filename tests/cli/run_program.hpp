@@ -34,6 +34,7 @@ class Running {
   bool wait_for_stdout(const std::string& text);
 
   void interrupt() const;
+  void send(int signal_number) const;
 
   /// What a power cut or the system's memory guard does to it.
   void kill_now() const;

@@ -181,6 +181,34 @@ TEST_F(Merge, WholeCanBeOneOfItsParts) {
   EXPECT_EQ(merge({output(), shard("y", {"c", "d"}, 0.5)}, output()).pairs, 2U);
 }
 
+TEST_F(Merge, CopyThatCameLaterTakesNoPairs) {
+  const fs::path x = shard("x", {"a", "bb"}, 0.5);
+  merge({x}, output());
+  const auto add_copy = [](const fs::path& run, const std::string& shard) {
+    store::Run with_copy = store::Run::write(run);
+    std::vector<Fragment> list = with_copy.fragments();
+    list.push_back(list[1]);
+    list.back().name = "b";
+    with_copy.begin(kParameters, list, shard);
+  };
+  add_copy(output(), "");
+  const Merged itself = merge({output()}, output());
+  EXPECT_EQ(itself.pairs, 1U);
+  EXPECT_EQ(store::Run::open(output()).pairs().at(0).name_b, "bb");
+  // Shards choose by names alone and search the copy's pairs again: those of its other name are no loss then.
+  add_copy(x, "x");
+  EXPECT_THROW(merge({x}, output()), StoreError) << "not searched yet";
+  store::Run run = store::Run::write(x);
+  Pair pair;
+  pair.a = run.fragments().at(0).id;
+  pair.b = run.fragments().at(1).id;
+  pair.stage = Stage::Match;
+  pair.result = "{}";
+  run.save(pair, {});
+  EXPECT_EQ(merge({x}, output()).pairs, 1U);
+  EXPECT_EQ(store::Run::open(output()).pairs().at(0).name_b, "b");
+}
+
 TEST_F(Merge, ShardStaysAShard) {
   const fs::path x = shard("x", {"a", "b"}, 0.5);
   EXPECT_THROW(merge({x}, x), StoreError);

@@ -2,106 +2,19 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 
 #include "core/error.hpp"
+#include "run_fixture.hpp"
 
 namespace rejoin::store {
 namespace {
 namespace fs = std::filesystem;
-
-const Parameters kParameters{"0.1.0", R"({"resolution":128})", 0xffffffffffffffffULL};
-
-using Changes = std::map<std::string, store::Run::Change>;
-
-Fragment fragment(const std::string& name, const std::string& hash) {
-  Fragment made;
-  made.name = name;
-  made.path = "somewhere/" + name;
-  made.hash = hash;
-  return made;
-}
-
-class RunTest : public ::testing::Test {
- protected:
-  void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "rejoin-store-XXXXXX").string();
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  /// The run's files in another folder, as they are while a writer has done a second pair and is stopped.
-  fs::path stopped_run(const std::vector<std::string>& endings) const {
-    make_run();
-    store::Run run = store::Run::write(folder_);
-    run.save(pair_of(run.fragments(), 1, 2), {candidate_});
-    const fs::path copy = folder_ / "copy";
-    fs::create_directory(copy);
-    for (const std::string& ending : endings) {
-      fs::copy_file(folder_ / (kFileName + ending), copy / (kFileName + ending));
-      fs::permissions(copy / (kFileName + ending), fs::perms(0444));
-    }
-    return copy;
-  }
-
-  /// Number of the pairs that a user reads who may write nothing there; -1: refused.
-  int pairs_without_writing(const fs::path& run) const {
-    fs::permissions(folder_, fs::perms(0755));
-    fs::permissions(run, fs::perms(0555));
-    const pid_t reader = fork();
-    if (reader == 0) {
-      int count = -1;
-      try {
-        if (geteuid() == 0 && setuid(65534) != 0) _exit(254);  // root may write everywhere
-        count = static_cast<int>(store::Run::open(run).pairs().size());
-      } catch (const StoreError&) {
-      }
-      _exit(count < 0 ? 255 : count);
-    }
-    int status = 0;
-    waitpid(reader, &status, 0);
-    fs::permissions(run, fs::perms(0755));
-    return WEXITSTATUS(status) == 255 ? -1 : WEXITSTATUS(status);
-  }
-
-  /// A run of b.ply, a.ply and c.ply with the pair (a, b) done.
-  void make_run() const {
-    store::Run run = store::Run::write(folder_);
-    run.begin(kParameters, three_);
-    run.save(pair_of(run.fragments(), 0, 1), {candidate_});
-  }
-
-  static Pair pair_of(const std::vector<Fragment>& list, std::size_t a, std::size_t b) {
-    Pair pair;
-    pair.a = list.at(a).id;
-    pair.b = list.at(b).id;
-    pair.stage = Stage::Match;
-    pair.score = 0.75;
-    pair.verdict = "join";
-    pair.result = "{}";
-    return pair;
-  }
-
-  static Candidate planted_candidate() {
-    Candidate candidate;
-    candidate.score = 0.75;
-    candidate.pose = {axis_rotation(glm::normalize(glm::dvec3(1, 2, 3)), 0.7), {1.0 / 3.0, -2e9, 4e-9}};
-    candidate.facet_a = 2;
-    candidate.gap_median = 0.125;
-    return candidate;
-  }
-
-  fs::path folder_;
-  const std::vector<Fragment> three_ = {fragment("b.ply", "22"), fragment("a.ply", "11"),
-                                        fragment("c.ply", "33")};
-  const Candidate candidate_ = planted_candidate();
-};
+using testing::fragment;
+using testing::kParameters;
+using testing::RunTest;
 
 TEST_F(RunTest, WhatIsSavedComesBackToTheLastBit) {
   make_run();
@@ -151,6 +64,30 @@ TEST_F(RunTest, CandidateWithoutPoseOrScoreIsRefused) {
   }
 }
 
+TEST_F(RunTest, FragmentWhoseNameOrHashLeadsElsewhereIsRefused) {
+  const auto expect_refused = [this](const std::string& change) {
+    make_run();
+    SQLite::Database(folder_ / kFileName, SQLite::OPEN_READWRITE)
+        .exec("UPDATE fragment SET " + change + " WHERE name = 'b.ply'");
+    try {
+      static_cast<void>(store::Run::open(folder_).fragments());
+      ADD_FAILURE() << change;
+    } catch (const StoreError& error) {
+      const std::string told = error.what();
+      EXPECT_EQ(told.find((folder_ / kFileName).string()), 0U) << told;
+      EXPECT_NE(told.find("its fragment 2 ("), std::string::npos) << told;
+      EXPECT_NE(told.find("run rejoin batch again"), std::string::npos) << told;
+    }
+    fs::remove(folder_ / kFileName);
+  };
+  for (const char* name : {"''", "'.'", "'..'", "'../../evil'", "'/etc/x'", "'a' || char(0) || 'b'",
+                           "'a' || char(10)", "CAST(x'61ff62' AS TEXT)"})
+    expect_refused(std::string("name = ") + name);
+  expect_refused("path = ''");
+  for (const char* hash : {"''", "'../../evil'", "'12 34'"}) expect_refused(std::string("hash = ") + hash);
+  expect_refused("facets = '../../evil'");
+}
+
 TEST_F(RunTest, WhatAnotherVersionCouldNotReadIsTriedAgain) {
   make_run();
   store::Run run = store::Run::write(folder_);
@@ -163,142 +100,6 @@ TEST_F(RunTest, WhatAnotherVersionCouldNotReadIsTriedAgain) {
   run.begin({"0.2.0", kParameters.json, kParameters.seed}, three_);
   EXPECT_EQ(run.fragments()[2].state, FragmentState::Waiting);
   EXPECT_EQ(run.fragments()[2].error, "");
-}
-
-TEST_F(RunTest, SameInputsKeepEverything) {
-  make_run();
-  store::Run run = store::Run::write(folder_);
-  const store::Run::Forgotten forgotten = run.begin(kParameters, three_);
-  EXPECT_FALSE(forgotten.parameters);
-  EXPECT_TRUE(forgotten.fragments.empty());
-  EXPECT_EQ(run.done().size(), 1U);
-}
-
-TEST_F(RunTest, ChangedFragmentLosesItsPairsAlone) {
-  make_run();
-  store::Run run = store::Run::write(folder_);
-  run.save(pair_of(run.fragments(), 0, 2), {});
-  std::vector<Fragment> changed = three_;
-  changed[0].hash = "44";  // b.ply
-  changed[2].path = "elsewhere/c.ply";
-  EXPECT_EQ(run.begin(kParameters, changed).fragments, (Changes{{"b.ply", store::Run::Change::Content}}));
-  ASSERT_EQ(run.pairs().size(), 1U);
-  EXPECT_EQ(run.pairs()[0].name_b, "c.ply");
-  EXPECT_EQ(run.fragments()[2].path, "elsewhere/c.ply");
-}
-
-TEST_F(RunTest, FragmentThatCannotBeReadKeepsItsPairs) {
-  make_run();
-  store::Run run = store::Run::write(folder_);
-  run.save(pair_of(run.fragments(), 0, 2), {});
-  std::vector<Fragment> changed = three_;
-  changed[0].hash = kUnreadable;
-  EXPECT_EQ(run.begin(kParameters, changed).fragments, (Changes{{"b.ply", store::Run::Change::Unreadable}}));
-  EXPECT_EQ(run.pairs().size(), 2U);
-  EXPECT_TRUE(run.begin(kParameters, three_).fragments.empty());
-  EXPECT_EQ(run.pairs().size(), 2U);
-}
-
-TEST_F(RunTest, FragmentThatIsGoneIsForgotten) {
-  make_run();
-  store::Run run = store::Run::write(folder_);
-  EXPECT_EQ(run.begin(kParameters, {three_[0], three_[1]}).fragments,
-            (Changes{{three_[2].name, store::Run::Change::Gone}}));
-}
-
-TEST_F(RunTest, FragmentPaintedOtherwiseLosesItsPairsAlone) {
-  make_run();
-  store::Run run = store::Run::write(folder_);
-  run.save(pair_of(run.fragments(), 1, 2), {candidate_});
-  std::vector<Fragment> painted = three_;
-  painted[1].facets = "paint";  // a.ply
-  EXPECT_EQ(run.begin(kParameters, painted).fragments, (Changes{{"a.ply", store::Run::Change::Paint}}));
-  ASSERT_EQ(run.pairs().size(), 1U);
-  EXPECT_EQ(run.pairs()[0].name_a, "b.ply");
-  EXPECT_EQ(run.fragments()[0].facets, "paint");
-  EXPECT_TRUE(run.begin(kParameters, painted).fragments.empty());
-}
-
-TEST_F(RunTest, CopyOfAnotherHasNoPairs) {
-  make_run();  // with the pair of a.ply and b.ply
-  std::vector<Fragment> list = three_;
-  list.push_back(fragment("A.ply", "22"));  // the content of b.ply
-  list.push_back(fragment("Copy of c.ply", "33"));
-  list.push_back(fragment("d.ply", kUnreadable));
-  list.push_back(fragment("e.ply", kUnreadable));
-  EXPECT_EQ(copies(list),
-            (std::map<std::string, std::string>{{"b.ply", "A.ply"}, {"Copy of c.ply", "c.ply"}}));
-  store::Run run = store::Run::write(folder_);
-  run.save(pair_of(run.fragments(), 0, 2), {});
-  run.begin(kParameters, list);
-  ASSERT_EQ(run.pairs().size(), 1U);
-  EXPECT_EQ(run.pairs()[0].name_b, "c.ply");
-}
-
-TEST_F(RunTest, GoneFragmentLosesItsPairs) {
-  make_run();
-  store::Run run = store::Run::write(folder_);
-  run.begin(kParameters, {three_[0], three_[2]});
-  EXPECT_EQ(run.fragments().size(), 2U);
-  EXPECT_TRUE(run.done().empty());
-}
-
-TEST_F(RunTest, OtherScansAltogetherAreRefusedSoThatNoPairIsLost) {
-  make_run();
-  store::Run run = store::Run::write(folder_);
-  EXPECT_THROW(run.begin(kParameters, {fragment("x.ply", "11"), fragment("y.ply", "22")}), StoreError);
-  EXPECT_EQ(run.done().size(), 1U);
-}
-
-TEST_F(RunTest, OtherContentsUnderTheSameNamesAreRefusedSoThatNoPairIsLost) {
-  make_run();
-  store::Run run = store::Run::write(folder_);
-  const std::vector<Fragment> others = {fragment("a.ply", "44"), fragment("b.ply", "55"),
-                                        fragment("y.ply", "11")};
-  EXPECT_THROW(run.begin(kParameters, others), StoreError);
-  EXPECT_EQ(run.done().size(), 1U);
-  run.begin(kParameters, {fragment("a.ply", "44"), three_[0]});
-  EXPECT_TRUE(run.done().empty()) << "a.ply was scanned again, b.ply is the same";
-  EXPECT_NO_THROW(run.begin(kParameters, others)) << "there is nothing to lose";
-}
-
-TEST_F(RunTest, RefusalNamesAScanOfTheSameName) {
-  make_run();
-  store::Run run = store::Run::write(folder_);
-  try {
-    run.begin(kParameters, {fragment("b.ply", "55"), fragment("y.ply", "44")});
-    FAIL();
-  } catch (const StoreError& error) {
-    EXPECT_NE(std::string(error.what()).find("same names: b.ply and 0 more"), std::string::npos)
-        << error.what();
-  }
-}
-
-TEST_F(RunTest, ScansThatWereAllUnreadableMayAllChange) {
-  make_run();
-  store::Run run = store::Run::write(folder_);
-  Pair failed = run.pairs().at(0);
-  failed.stage = Stage::Failed;
-  run.save(failed, {});
-  EXPECT_NO_THROW(run.begin(kParameters, {fragment("a.ply", "44"), fragment("b.ply", "55")}));
-}
-
-TEST_F(RunTest, ChangedParametersForgetAllPairs) {
-  make_run();
-  store::Run run = store::Run::write(folder_);
-  Parameters other = kParameters;
-  other.seed = 2;
-  EXPECT_TRUE(run.begin(other, three_).parameters);
-  EXPECT_TRUE(run.done().empty());
-  EXPECT_EQ(run.parameters().seed, 2U);
-}
-
-TEST_F(RunTest, OtherShardIsRefusedSoThatNoPairIsLost) {
-  make_run();
-  store::Run run = store::Run::write(folder_);
-  EXPECT_THROW(run.begin(kParameters, three_, "1/8"), StoreError);
-  EXPECT_EQ(run.done().size(), 1U);
-  EXPECT_EQ(run.shard(), "");
 }
 
 TEST_F(RunTest, FailuresAreForgottenAndNothingElse) {

@@ -1,13 +1,18 @@
 #include "store/detail/rows.hpp"
 
 #include <fmt/format.h>
+#include <sqlite3.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <string>
 
+#include "core/error.hpp"
+#include "core/utf8.hpp"
 #include "store/detail/schema.hpp"
 
 namespace rejoin::store::detail {
@@ -30,11 +35,69 @@ std::array<double, 7> figures(const Candidate& c) {
   return {c.depth, c.slope, c.raycast, c.overlap, c.contact_area, c.gap_median, c.penetration};
 }
 
+/// Those of the fragments that are as the database knows them and whose content others have, too.
+SearchedPairs searched_pairs_of_equals(SQLite::Database& database, const std::vector<Fragment>& fragments) {
+  std::map<std::string, std::size_t> with_hash;
+  for (const Fragment& fragment : fragments) ++with_hash[fragment.hash];
+  SQLite::Statement count(database,
+                          "SELECT count(*) FROM fragment f JOIN pair p ON p.a = f.id OR p.b = f.id "
+                          "WHERE f.name = ? AND f.hash = ? AND p.stage IN ('sweep', 'match')");
+  SearchedPairs searched;
+  for (const Fragment& fragment : fragments) {
+    if (with_hash[fragment.hash] < 2) continue;
+    count.reset();
+    count.bind(1, fragment.name);
+    count.bind(2, fragment.hash);
+    count.executeStep();
+    searched[fragment.name] = static_cast<std::size_t>(count.getColumn(0).getInt64());
+  }
+  return searched;
+}
+
+bool is_control(char c) {
+  return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+}
+
+bool is_hexadecimal(const std::string& text) {
+  return std::ranges::all_of(text, [](unsigned char c) { return std::isxdigit(c) != 0; });
+}
+
+/// What is wrong with a fragment, in the words of a message; empty: nothing.  Its name and hashes become those of files, and a database
+/// may be anybody's.
+std::string fault_of(const Fragment& fragment) {
+  const std::string& name = fragment.name;
+  if (name.empty() || name == "." || name == ".." || name.find('/') != std::string::npos || !is_utf8(name) ||
+      std::ranges::any_of(name, is_control))
+    return "has no name of a file";
+  if (fragment.path.empty()) return "has no path";
+  if (fragment.hash.empty() || (fragment.hash != kUnreadable && !is_hexadecimal(fragment.hash)))
+    return "has a hash that is not hexadecimal";
+  return is_hexadecimal(fragment.facets) ? "" : "has a hash of facets that is not hexadecimal";
+}
+
+/// \throws StoreError the fragment is none that rejoin writes
+void require_sound(const Fragment& fragment, SQLite::Database& database) {
+  const std::string fault = fault_of(fragment);
+  if (fault.empty()) return;
+  std::string name = valid_utf8(fragment.name);
+  std::ranges::replace_if(name, is_control, '?');
+  throw StoreError(sqlite3_db_filename(database.getHandle(), "main"),
+                   fmt::format("its fragment {} (\"{}\") {}", fragment.id, name, fault),
+                   "put its row right, or move the file away and run rejoin batch again");
+}
+
 }  // namespace
+
+std::map<std::string, std::string> copies_in(SQLite::Database& database,
+                                             const std::vector<Fragment>& fragments,
+                                             const std::string& shard) {
+  return shard.empty() ? copies(fragments, searched_pairs_of_equals(database, fragments)) : copies(fragments);
+}
 
 void remove_pairs_of_copies(SQLite::Database& database) {
   const std::vector<Fragment> fragments = all_fragments(database);
-  const std::map<std::string, std::string> left_out = copies(fragments);
+  const std::string shard = database.execAndGet("SELECT shard FROM run").getString();
+  const std::map<std::string, std::string> left_out = copies_in(database, fragments, shard);
   SQLite::Statement remove(database, "DELETE FROM pair WHERE a = ?1 OR b = ?1");
   for (const Fragment& fragment : fragments) {
     if (left_out.count(fragment.name) == 0) continue;
@@ -99,7 +162,10 @@ std::vector<Fragment> all_fragments(SQLite::Database& database) {
                                      has_lengths(database) ? "spacing, noise, wall" : "0, 0, 0",
                                      has_hints(database) ? "pose, facets" : "'', ''"));
   std::vector<Fragment> list;
-  while (rows.executeStep()) list.push_back(fragment_from(rows));
+  while (rows.executeStep()) {
+    list.push_back(fragment_from(rows));
+    require_sound(list.back(), database);
+  }
   return list;
 }
 

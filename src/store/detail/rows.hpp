@@ -3,6 +3,7 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,7 +20,14 @@ inline constexpr const char* kCandidateColumns =
 /// ", ?" for each of kCandidateColumns.
 std::string placeholders();
 
-/// Removes the pairs of copies() and their candidates.
+/// copies() of fragments that may have pairs in the database, under their names and hashes.  In a shard names alone tell which stands
+/// for all, for shards know nothing of each other and have to choose alike.
+/// \param shard  for which the database is, or is to be; empty: the whole
+std::map<std::string, std::string> copies_in(SQLite::Database& database,
+                                             const std::vector<Fragment>& fragments,
+                                             const std::string& shard);
+
+/// Removes the pairs of copies_in() and their candidates.
 void remove_pairs_of_copies(SQLite::Database& database);
 
 const char* name_of(FragmentState state);
@@ -28,6 +36,7 @@ Stage stage(const std::string& name);
 
 Fragment fragment_from(SQLite::Statement& row);
 /// By name.
+/// \throws StoreError one has no sound name of a file, no path, or a hash that is none
 std::vector<Fragment> all_fragments(SQLite::Database& database);
 /// Nothing if its rank, score or pose is none.
 std::optional<Candidate> candidate_from(SQLite::Statement& row);

@@ -1,0 +1,63 @@
+#include "cli/output_stage.hpp"
+
+#include <fmt/format.h>
+
+#include <system_error>
+
+#include "core/error.hpp"
+#include "core/files.hpp"
+
+namespace rejoin::cli {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kStageName = "rejoin.part";
+
+/// What a program left that could not end by itself goes.
+fs::path made_anew(const fs::path& stage) {
+  std::error_code ignored;
+  fs::remove_all(stage, ignored);
+  require_writable_folder(stage);
+  return stage;
+}
+
+void move_file(const fs::path& from, const fs::path& to) {
+  std::error_code problem;
+  if (fs::is_symlink(to, problem)) {  // who has a link there means what it leads to
+    write_file(to, read_file(from));
+    return;
+  }
+  fs::rename(from, to, problem);
+  if (problem) {
+    throw IoError(to.string(), fmt::format("cannot be written ({})", problem.message()),
+                  "check the folder and its permissions, or choose another place");
+  }
+}
+
+}  // namespace
+
+OutputStage::OutputStage(const fs::path& folder)
+    : folder_(folder), path_(made_anew(folder / kStageName)), killed_(fs::absolute(path_)) {}
+
+OutputStage::~OutputStage() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+std::vector<fs::path> OutputStage::publish(const std::vector<fs::path>& files) const {
+  std::vector<fs::path> published;
+  for (const fs::path& file : files) {
+    published.push_back(folder_ / file.lexically_relative(path_));
+    std::error_code ignored;
+    if (!fs::is_directory(file, ignored)) {
+      move_file(file, published.back());
+      continue;
+    }
+    require_writable_folder(published.back());
+    for (const fs::directory_entry& entry : fs::directory_iterator(file))
+      move_file(entry.path(), published.back() / entry.path().filename());
+  }
+  return published;
+}
+
+}  // namespace rejoin::cli
