@@ -92,15 +92,22 @@ void doubt_several_bodies(Fragment& fragment) {
       fragment.path, shares.size(), list));
 }
 
-/// What hangs on a piece lies in its neighbours, as soon as they are put together.
+/// What hangs on a piece lies in its neighbours as soon as they are put together.
 void cut_off_flaps(Fragment& fragment) {
-  std::optional<mesh::Trimmed> trimmed = mesh::without_flaps(fragment.surface);
-  if (!trimmed) return;
-  fragment.surface = std::move(trimmed->surface);
-  fragment.warnings.push_back(fmt::format(
-      "{}: {:.0f} % of it hangs on it as a thin sheet, as of a table that was scanned with the piece, and is "
-      "left out",
-      fragment.path, 100.0 * trimmed->share));
+  mesh::Flaps flaps = mesh::cut_off_flaps(fragment.surface);
+  if (flaps.rest) {
+    fragment.surface = std::move(*flaps.rest);
+    fragment.warnings.push_back(
+        fmt::format("{}: {:.0f} % of it hangs on it as a thin sheet, as of a table that was scanned with it, "
+                    "and is left out",
+                    fragment.path, 100.0 * flaps.share));
+  }
+  if (flaps.doubtful > 0) {
+    fragment.warnings.push_back(fmt::format(
+        "{}: {:.0f} % of it hangs on it as a thin sheet: if that is of a table, cut it off in the scanning "
+        "software; it keeps joins from being found",
+        fragment.path, 100.0 * flaps.doubtful));
+  }
 }
 
 void tell_pores(Fragment& fragment, double share) {

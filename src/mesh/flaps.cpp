@@ -31,10 +31,11 @@ constexpr double kMostOpen = 0.5;  // of a piece that has a body, at most, has n
 constexpr double kLeast = 0.01;    // of the area: less keeps no pieces apart
 /// Of the piece's thickness, at most: sheets that are open, then leaves, thin ones first, as thicker parts go on into edges that run out.
 constexpr std::array kThin{0.0, 0.05, 0.1, 0.2};
-constexpr double kFree = 0.5;        // of an open flap's border, at least, is where the scan ends
-constexpr double kWide = 8.0;        // thicknesses, at least, from where a leaf hangs to its end
-constexpr float kStep = 3.0F;        // thicknesses of the leaf, at least, beside it ...
-constexpr double kAtStep = 0.75;     // ... nearly everywhere
+constexpr double kFree = 0.5;  // of an open flap's border, at least, is where the scan ends
+constexpr double kWide = 6.0;  // thicknesses, at least, from where a leaf hangs to its end
+constexpr double kFine = 3.0;  // edges, at most, is a leaf thick whose own border has no shape to be known by
+constexpr float kStep = 3.0F;  // thicknesses of the leaf, at least, beside it ...
+constexpr double kAtStep = 0.9;      // ... nearly everywhere
 constexpr double kOtherSide = 0.08;  // of the piece, at most, lies on the other side of a leaf
 constexpr double kTilt = 0.15;       // slope by which the plane of a leaf is not sure
 constexpr double kWall = 0.1;  // of the rays that would leave the body through it, were it a wall, at most
@@ -50,6 +51,14 @@ Mesh without(const Mesh& mesh, const std::vector<bool>& faces) {
   }
   return submesh(mesh, kept);
 }
+
+enum class Kind { None, Flap, Doubtful };
+
+struct Found {
+  std::vector<bool> faces;  ///< of flaps
+  bool any = false;
+  double doubtful = 0;  ///< area of others
+};
 
 /// Looks at the thin parts of one scan.
 class FlapSearch {
@@ -69,18 +78,21 @@ class FlapSearch {
     return has_body_ && static_cast<double>(thin) >= 0.5 * kLeast * static_cast<double>(places_.size());
   }
 
-  /// Faces of the flaps among the parts up to a share of the piece's thickness.
-  std::vector<bool> faces_of_flaps(double share) {
+  /// What flaps there are among the parts up to a share of the piece's thickness.
+  Found find(double share) {
     if (of_faces_.empty()) look_at_faces();
     std::vector<bool> thin;
     thin.reserve(of_faces_.size());
     for (const float t : of_faces_) thin.push_back(is_thin(t, share));
-    std::vector<bool> result(thin.size(), false);
+    Found found{std::vector<bool>(thin.size(), false), false, 0.0};
     for (const ThinPart& part : detail::thin_parts(mesh_, thin, kLeast * area_)) {
-      if (!is_flap(part)) continue;
-      for (const std::uint32_t f : part.faces) result[f] = true;
+      const Kind kind = kind_of(part);
+      if (kind == Kind::Doubtful) found.doubtful += part.area;
+      if (kind != Kind::Flap) continue;
+      found.any = true;
+      for (const std::uint32_t f : part.faces) found.faces[f] = true;
     }
-    return result;
+    return found;
   }
 
  private:
@@ -92,11 +104,13 @@ class FlapSearch {
     of_faces_ = thickness_of(middles, evened_normals());
   }
 
-  bool is_flap(const ThinPart& part) const {
-    Part at = look_at(part);
-    if (at.seam.empty() || is_wall(at)) return false;
+  Kind kind_of(const ThinPart& part) const {
+    const Part at = look_at(part);
+    if (at.seam.empty() || is_wall(at)) return Kind::None;
     const bool open = open_share(at) > 0.5 && part.free >= kFree * (part.free + part.attached);
-    return (open || is_leaf(at)) && closes_without(at);
+    const float thickness = open ? 0.0F : thickness_of_part(at);
+    if (!(open || is_leaf(at, thickness)) || !closes_without(at)) return Kind::None;
+    return static_cast<double>(thickness) <= kFine * resolution(mesh_) ? Kind::Flap : Kind::Doubtful;
   }
 
   /// A thin part among the places.
@@ -204,12 +218,15 @@ class FlapSearch {
     return static_cast<double>(through) > kWall * share * static_cast<double>(all);
   }
 
-  bool is_leaf(const Part& at) const {
+  float thickness_of_part(const Part& at) const {
     std::vector<float> own;
     for (const std::uint32_t i : at.own) {
       if (thickness_[i] < kNoBody) own.push_back(thickness_[i]);
     }
-    const float thickness = median(own);
+    return median(own);
+  }
+
+  bool is_leaf(const Part& at, float thickness) const {
     if (at.part.area < kWide * static_cast<double>(thickness) * at.part.attached) return false;
     std::size_t all = 0;
     std::size_t thick = 0;
@@ -272,21 +289,21 @@ class FlapSearch {
 
 }  // namespace
 
-std::optional<Trimmed> without_flaps(const Mesh& mesh) {
+Flaps cut_off_flaps(const Mesh& mesh) {
+  Flaps flaps;
   std::optional<FlapSearch> search(mesh);
-  if (!search->is_worth_a_look()) return std::nullopt;
-  std::optional<Mesh> left;
+  if (!search->is_worth_a_look()) return flaps;
   for (const double share : kThin) {
-    const std::vector<bool> dropped = search->faces_of_flaps(share);
-    if (std::ranges::count(dropped, true) == 0) continue;
-    Mesh rest = without(left ? *left : mesh, dropped);
+    const Found found = search->find(share);
+    flaps.doubtful = std::max(flaps.doubtful, found.doubtful / surface_area(mesh));
+    if (!found.any) continue;
+    Mesh rest = without(flaps.rest ? *flaps.rest : mesh, found.faces);
     search.reset();
-    left = std::move(rest);
-    search.emplace(*left);
+    flaps.rest = std::move(rest);
+    search.emplace(*flaps.rest);
   }
-  if (!left) return std::nullopt;
-  const double share = 1.0 - surface_area(*left) / surface_area(mesh);
-  return Trimmed{std::move(*left), share};
+  if (flaps.rest) flaps.share = 1.0 - surface_area(*flaps.rest) / surface_area(mesh);
+  return flaps;
 }
 
 }  // namespace rejoin::mesh

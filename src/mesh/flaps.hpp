@@ -7,21 +7,21 @@
 
 namespace rejoin::mesh {
 
-/// A scan without its flaps.
-struct Trimmed {
-  Mesh surface;
-  double share = 0;  ///< of the area, in flaps
+struct Flaps {
+  std::optional<Mesh> rest;  ///< the scan without those that are cut off; nullopt: none is
+  double share = 0;          ///< of the area, in these
+  double doubtful = 0;       ///< of the area, in others, which may be a part of the piece
 };
 
-/// Cuts off flaps: thin sheets beside a piece, as scans bring along of what the piece lay on.
+/// Cuts off flaps: thin sheets beside a piece, as scans bring along of what it lay on.
 ///
-/// A flap is a part with a hundredth of the area or more that is open, with nothing behind it on either side, and ends freely along
-/// half of its border or more; or a leaf, with a back no farther than a fifth of the piece's thickness from its front, which hangs on
-/// what is three times as thick at once, is wide against its thickness and leaves the piece on one side of it.  It is cut off only if
-/// the piece is closed without it: it is no wall of the body, nor is the surface beside it open then.  So a piece of which a side was
-/// not scanned keeps all that it has, and edges that run out, rims and ribs stay.  Deterministic; lengths count against each other only.
-/// \return nothing if there are none
+/// A flap has a hundredth of the area or more.  Either it is open, with no body on either side, and half of its border or more is
+/// where the scan ends; or it is a leaf, no thicker than a fifth of the piece's median thickness, six times as wide as thick, which
+/// hangs on what is three times as thick at once and has the piece on one side of its plane.  It is cut off only where this leaves no
+/// hole: rays do not leave the body through it, and the body beside the seam is closed without it.  So pieces of which a side was not
+/// scanned keep all that they have, and edges that run out, rims, ribs and fins stay.  A leaf more than three edges thick may have
+/// breaks that can be joined: it is doubtful.  Not found are leaves that are most of the area.  Deterministic; nothing depends on units.
 /// \pre the mesh has faces
-std::optional<Trimmed> without_flaps(const Mesh& mesh);
+Flaps cut_off_flaps(const Mesh& mesh);
 
 }  // namespace rejoin::mesh
