@@ -14,7 +14,6 @@
 #include "core/parallel.hpp"
 #include "mesh/detail/inside.hpp"
 #include "mesh/detail/local_fit.hpp"
-#include "mesh/detail/parts.hpp"
 #include "mesh/detail/thin_parts.hpp"
 #include "mesh/point_index.hpp"
 #include "mesh/samples.hpp"
@@ -32,6 +31,7 @@ constexpr double kLeast = 0.01;    // of the area: less keeps no pieces apart
 /// Of the piece's thickness, at most: sheets that are open, then leaves, thin ones first, as thicker parts go on into edges that run out.
 constexpr std::array kThin{0.0, 0.05, 0.1, 0.2};
 constexpr double kFree = 0.5;  // of an open flap's border, at least, is where the scan ends
+constexpr double kMost = 0.8;  // of a leaf beside its seam is no thicker than it counts
 constexpr double kWide = 6.0;  // thicknesses, at least, from where a leaf hangs to its end
 constexpr double kFine = 3.0;  // edges, at most, is a leaf thick whose own border has no shape to be known by
 constexpr float kStep = 3.0F;  // thicknesses of the leaf, at least, beside it ...
@@ -218,12 +218,13 @@ class FlapSearch {
     return static_cast<double>(through) > kWall * share * static_cast<double>(all);
   }
 
+  /// Of most of it beside the seam: edges that run out are thinner farther away.
   float thickness_of_part(const Part& at) const {
     std::vector<float> own;
     for (const std::uint32_t i : at.own) {
-      if (thickness_[i] < kNoBody) own.push_back(thickness_[i]);
+      if (thickness_[i] < kNoBody && at.from_seam[i] < kNoBody) own.push_back(thickness_[i]);
     }
-    return median(own);
+    return quantile(own, kMost);
   }
 
   bool is_leaf(const Part& at, float thickness) const {
