@@ -52,7 +52,8 @@ struct Options {
 /// A fragment made ready: surface, level of detail, facets.
 struct Fragment {
   std::string path;
-  mesh::Mesh surface;  ///< triangles at full resolution: the scan after clean-up, or the surface of its cloud
+  mesh::Mesh
+      surface;  ///< triangles at full resolution: the scan after clean-up, or the surface of its cloud; without flaps (mesh/flaps.hpp)
   mesh::Mesh
       coarse;  ///< a level of detail for depth maps: at most 40,000 faces; of a noisy scan smoothed, of a porous one without pores
   mesh::Segmentation facets;  ///< of `surface`, of a noisy scan smoothed, of a porous one without pores
@@ -68,7 +69,7 @@ struct Fragment {
   std::vector<std::string>
       warnings;  ///< what was mended when its file was read, and what may keep joins from being found
   std::vector<StageTime>
-      stages;  ///< surface (of a cloud), smooth (of a noisy scan), pores, coarse, facets; load where a file was read
+      stages;  ///< surface (of a cloud), flaps, smooth (of a noisy scan), pores, coarse, facets; load where a file was read
 };
 
 /// Whether both are sherds, thin pieces with a wall thickness of their own.

@@ -9,6 +9,7 @@
 #include "match/match.hpp"
 #include "match/pose_space.hpp"
 #include "mesh/bodies.hpp"
+#include "mesh/flaps.hpp"
 #include "mesh/noise.hpp"
 #include "mesh/pores.hpp"
 #include "mesh/smooth.hpp"
@@ -91,6 +92,24 @@ void doubt_several_bodies(Fragment& fragment) {
       fragment.path, shares.size(), list));
 }
 
+/// What hangs on a piece lies in its neighbours as soon as they are put together.
+void cut_off_flaps(Fragment& fragment) {
+  mesh::Flaps flaps = mesh::cut_off_flaps(fragment.surface);
+  if (flaps.rest) {
+    fragment.surface = std::move(*flaps.rest);
+    fragment.warnings.push_back(
+        fmt::format("{}: {:.0f} % of it hangs on it as a thin sheet, as of a table that was scanned with it, "
+                    "and is left out",
+                    fragment.path, 100.0 * flaps.share));
+  }
+  if (flaps.doubtful > 0) {
+    fragment.warnings.push_back(fmt::format(
+        "{}: {:.0f} % of it hangs on it as a thin sheet: if that is of a table, cut it off in the scanning "
+        "software; it keeps joins from being found",
+        fragment.path, 100.0 * flaps.doubtful));
+  }
+}
+
 void tell_pores(Fragment& fragment, double share) {
   fragment.warnings.push_back(
       fmt::format("{}: {:.0f} % of it lies in pores, where nothing can touch it, and is left out",
@@ -144,6 +163,8 @@ Fragment prepare(std::string path, mesh::Mesh scan, const Context& context) {
   Stopwatch clock(fragment.stages);
   fragment.surface = surface_of(fragment.path, std::move(scan));
   clock.lap("surface");
+  cut_off_flaps(fragment);
+  clock.lap("flaps");
   fragment.diameter = mesh::diameter(fragment.surface);
   fragment.resolution = mesh::resolution(fragment.surface);
   fragment.noise = mesh::noise(fragment.surface);

@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <string>
+
+#include "../match/planted_block.hpp"
+#include "../mesh/hung_sheet.hpp"
 #include "../mesh/shapes.hpp"
 #include "shatter/shatter.hpp"
 
@@ -69,6 +74,27 @@ TEST(Interpenetrate, NeighboursDoNot) {
     for (const shatter::Contact& c : sherds.contacts)
       EXPECT_FALSE(interpenetrate_as_broken(sherds.list[c.a], sherds.list[c.b])) << c.a << " " << c.b;
   }
+}
+
+/// Half of a block with a sheet on the edge of its break, which leans to where the other half belongs.
+mesh::Mesh half_with_flap() {
+  mesh::Mesh half = match::testing::half_block(true, 48);
+  const auto at_edge = [](const glm::vec3& v) {
+    const double cut = match::testing::cut_height(static_cast<double>(v.x), static_cast<double>(v.y));
+    return v.x > 39.9F && std::abs(v.y) < 28.0F && std::abs(static_cast<double>(v.z) - cut) < 1e-3;
+  };
+  mesh::test::hang_sheet(half, at_edge, {0, 1, 0},
+                         [](float along, float) { return glm::vec3(-0.8F * along, 0.0F, 1.2F * along); });
+  return half;
+}
+
+TEST(Interpenetrate, FlapThatLeansIntoTheNeighbourIsNoBody) {
+  const match::Fragment below = match::prepare("below", half_with_flap(), Context());
+  const match::Fragment above = match::prepare("above", match::testing::half_block(false, 48), Context());
+  ASSERT_FALSE(below.warnings.empty());
+  EXPECT_NE(below.warnings.front().find("thin sheet"), std::string::npos) << below.warnings.front();
+  EXPECT_FALSE(interpenetrate(Piece(below), Piece(above), Rigid{}));
+  EXPECT_FALSE(interpenetrate(Piece(above), Piece(below), Rigid{}));
 }
 
 }  // namespace
