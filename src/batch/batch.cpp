@@ -272,6 +272,7 @@ class Work {
 
   match::Options options_of(const std::string& a, const std::string& b) const {
     match::Options options = options_.match;
+    if (names_.size() <= options_.few_scans) options.promising_only = false;
     const auto laid_a = layout_.find(a);
     const auto laid_b = layout_.find(b);
     if (laid_a == layout_.end() || laid_b == layout_.end()) return options;

@@ -23,6 +23,8 @@ struct Options {
   Options() { match.promising_only = true; }
 
   match::Options match;
+  /// Pairs of a folder of so many scans are all searched in full: it takes minutes, and each join is one of few.
+  std::size_t few_scans = 16;
   /// Two scans of it are looked for near the pose that they have there, and there alone, in full.  If they lie too far apart there to
   /// touch, they are not looked for.
   Layout layout;

@@ -52,7 +52,7 @@ class BatchCommand final : public Command {
     app.add_flag("--json", json_, "tell the course as JSON lines on stdout")->group("Output");
     app.option_defaults()->group("Search");
     app.add_option("--shard", shard_, "do part I of N, into a folder of its own")->type_name("I/N");
-    app.add_flag("--thorough", thorough_, "search all pairs in full, not only promising ones");
+    app.add_flag("--thorough", thorough_, "search all pairs in full, also of more than 16 scans");
     app.add_flag("--retry", options_.retry, "try again what failed before");
     add_number(app, "--resolution", options_.match.resolution, {8, 2048},
                "pixels across a depth map, 8 to 2048 (128)");

@@ -72,7 +72,7 @@ std::string summary(const match::Result& result, bool near) {
   const match::JointError& error = best.error;
   return fmt::format("{}{}, score {:.3f}\n", name_of(result.verdict),
                      result.cancelled ? " so far (the search is not finished)" : "", best.score) +
-         pose_text(best.pose) +
+         (result.against.empty() ? "" : "against it: " + result.against + "\n") + pose_text(best.pose) +
          fmt::format("contact: area {:.4g}, median gap {}, penetration {:.3g} (in the scans' unit)\n",
                      error.contact_area, measured(error.gap_median, 3), error.penetration) +
          fmt::format("whole fragments: slope difference {}, ray-cast {}, overlap {}\n",

@@ -1,5 +1,7 @@
 #include "match/evidence.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
@@ -48,6 +50,7 @@ constexpr double kMostContinuation = 4.5;
 constexpr std::array kScales{1.5,
                              3.0};      // patches: radii of the surroundings that tell small shape from large
 constexpr double kSmallestShare = 0.4;  // of the information, by scales: right poses have as much
+constexpr double kHalf = 0.5;           // of the shape's worth: what takes that is told
 constexpr double kNoLimit = -std::numeric_limits<double>::infinity();
 
 /// 1.48 times the median absolute deviation: the standard deviation of what is not outliers.
@@ -370,14 +373,26 @@ double touching_share(const Evidence& evidence) {
   return all > 0 ? evidence.contact_area / all : 0.0;
 }
 
-/// What the shape of the broken surfaces is worth.
-double strength_of_shape(const Evidence& evidence) {
-  const double touching = touching_share(evidence);
-  if (touching <= 0 || evidence.tolerance <= 0) return 0.0;
+/// What leaves of the shape's information what it is worth, each 0 to 1.
+struct Reserves {
+  double touching;  ///< by what lies over the other surface or in the other body without touching it
+  double walls;     ///< by walls that do not go on
+  double tight;     ///< by gaps that vary
+};
+
+/// \pre the tolerance is above 0
+Reserves reserves_of(const Evidence& evidence) {
   const double loose = evidence.gap_spread / (kLoose * evidence.tolerance);
   const double walls = std::min(1.0, evidence.wall_share / kWallsGoOn);
-  return evidence.information * std::pow(touching, kOpenCosts) * walls * walls /
-         (1.0 + loose * loose * loose * loose);
+  return {std::pow(touching_share(evidence), kOpenCosts), walls * walls,
+          1.0 / (1.0 + loose * loose * loose * loose)};
+}
+
+/// What the shape of the broken surfaces is worth.
+double strength_of_shape(const Evidence& evidence) {
+  if (touching_share(evidence) <= 0 || evidence.tolerance <= 0) return 0.0;
+  const Reserves reserves = reserves_of(evidence);
+  return evidence.information * reserves.touching * reserves.walls * reserves.tight;
 }
 
 /// What strength_of_shape() can be at most once a look is complete: what is inside the other body and walls that do not go on only
@@ -407,6 +422,23 @@ double strength(const Evidence& evidence) {
   const double further = std::max(0.0, evidence.continuation - kByChance);
   return strength_of_shape(evidence) + std::min(kMostContinuation, kContinuation * further) *
                                            std::pow(touching_share(evidence), kOpenCosts);
+}
+
+std::string objection(const Evidence& evidence) {
+  if (evidence.tolerance <= 0) return {};
+  const auto [touching, walls, tight] = reserves_of(evidence);
+  const double least = std::min({touching, walls, tight});
+  if (least > kHalf) return {};
+  if (least == touching) {
+    const bool inside = evidence.penetration_area > evidence.shared_area - evidence.contact_area;
+    return inside ? "a part of one piece lies inside the other"
+                  : fmt::format("of what lies on the other piece only {:.0f} % touches it",
+                                100.0 * touching_share(evidence));
+  }
+  if (least == walls)
+    return fmt::format("of the walls at the seam only {:.0f} % go on across it", 100.0 * evidence.wall_share);
+  return fmt::format("the gap varies by {:.2g}, where sides of one break would keep their distance",
+                     evidence.gap_spread);
 }
 
 Evidence told_by_scale(Evidence evidence, double share) {

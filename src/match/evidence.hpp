@@ -3,6 +3,7 @@
 
 #include <glm/glm.hpp>
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace rejoin::match {
@@ -47,6 +48,9 @@ struct Evidence {
 /// its border.  Comparable across pairs.
 /// \source docs/scoring.md
 double strength(const Evidence& evidence);
+
+/// What takes most from the strength that the shape would have, for users; empty if nothing takes half of it.
+std::string objection(const Evidence& evidence);
 
 /// The evidence with less information where too little is left of it scale by scale, as where smooth surfaces fit each other loosely.
 /// \param share  Joint::share_by_scale()

@@ -267,6 +267,7 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
   result.cancelled = context.cancelled();
   if (!result.candidates.empty()) {
     result.verdict = verdict_of(result.candidates.front().score, result.stability);
+    result.against = against(hypotheses.front().evidence, result.candidates.front().score, result.stability);
     if (result.verdict != Verdict::NoJoin && may_be_walls(hypotheses.front().evidence))
       result.warnings.emplace_back(kWalls);
   }

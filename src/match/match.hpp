@@ -153,6 +153,7 @@ struct Progress {
 struct Result {
   std::vector<Candidate> candidates;  ///< by rank(), distinct; empty only if nothing could be tried
   Verdict verdict = Verdict::NoJoin;
+  std::string against;  ///< why the best candidate is no join; empty if it is, or there is none
   std::optional<Stability> stability;  ///< of the best candidate; nullopt if it was not probed
   /// Else the pair was not promising: the best pose is the only candidate, and its depth-map errors are not measured.
   bool in_full = true;

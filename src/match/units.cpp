@@ -1,5 +1,6 @@
 #include "match/units.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -82,6 +83,18 @@ std::vector<UnitGroups> split_at_gaps(const std::vector<Lengths>& scans, Length 
   return splits;
 }
 
+/// Puts scans that the split could not tell, solid pieces beside sherds, into the group whose spacing is nearer to theirs.
+void add_rest(const std::vector<Lengths>& scans, UnitGroups& groups) {
+  std::vector<double> small = known(scans, groups.small, &Lengths::spacing);
+  std::vector<double> large = known(scans, groups.large, &Lengths::spacing);
+  const double middle = std::sqrt(median(small) * median(large));
+  for (std::size_t k = 0; k < scans.size(); ++k) {
+    if (std::ranges::binary_search(groups.small, k) || std::ranges::binary_search(groups.large, k)) continue;
+    std::vector<std::size_t>& group = scans[k].spacing < middle ? groups.small : groups.large;
+    group.insert(std::ranges::lower_bound(group, k), k);
+  }
+}
+
 }  // namespace
 
 Lengths lengths_of(const Fragment& fragment) {
@@ -94,6 +107,7 @@ std::optional<UnitGroups> units_apart(const std::vector<Lengths>& scans) {
       const std::optional<double> ratio = common_ratio(scans, groups);
       if (!ratio) continue;
       groups.ratio = *ratio;
+      add_rest(scans, groups);
       return groups;
     }
   }

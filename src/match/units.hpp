@@ -40,7 +40,8 @@ struct UnitGroups {
 /// Scans as in centimetres, inches or metres beside scans as in millimetres: two groups between whose walls, or whose spacings, a gap
 /// lies, and of which the medians of all lengths differ alike, more than four times.  Small pieces of one box have the wall, the noise
 /// or the spacing of large ones.  Inches beside centimetres (2.54 times) cannot be told from other sherds.
-/// \return nullopt if there are no such groups; split by their walls, a scan without one is in neither
+/// Split by their walls, a scan without one is in the group whose spacing is nearer.
+/// \return nullopt if there are no such groups
 std::optional<UnitGroups> units_apart(const std::vector<Lengths>& scans);
 
 /// Units whose scans have such a ratio: "inches" and "millimetres".

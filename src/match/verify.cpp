@@ -1,5 +1,7 @@
 #include "match/verify.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,6 +30,19 @@ Verdict verdict_of(double score, const std::optional<Stability>& stability) {
   const bool holds = stability && stability->repeat_deg <= kSteady && stability->margin >= kAhead;
   if (score >= kSure && holds) return Verdict::Join;
   return score >= kPossible ? Verdict::Unsure : Verdict::NoJoin;
+}
+
+std::string against(const Evidence& evidence, double score, const std::optional<Stability>& stability) {
+  if (verdict_of(score, stability) == Verdict::Join) return {};
+  if (score >= kSure) {
+    if (!stability) return "it was not looked at whether the pose holds";
+    return stability->margin < kAhead
+               ? "another pose of the two is nearly as good"
+               : fmt::format("either half of the break turns the pose by {:.1f} degrees",
+                             stability->repeat_deg);
+  }
+  const std::string found = objection(evidence);
+  return found.empty() ? "the breaks have too little shape in common" : found;
 }
 
 Candidate unmeasured(const Fragment& a, const Fragment& b, const Rigid& pose, const Evidence& evidence,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "match/align.hpp"
 #include "match/match.hpp"
@@ -28,6 +29,10 @@ double score_of(double strength);
 /// \param stability  of it; a pose that half of the samples would turn, that another one comes near, or that was not probed, is no
 ///                   sure join
 Verdict verdict_of(double score, const std::optional<Stability>& stability);
+
+/// Why the verdict is not "join", for users; empty if it is.
+/// \param evidence  of the best candidate, as are the others
+std::string against(const Evidence& evidence, double score, const std::optional<Stability>& stability);
 
 /// A candidate without errors by depth maps, which stay infinite.
 /// \param pose  B -> A, relative to the meshes' origins

@@ -128,28 +128,10 @@ TEST_F(Batch, SecondRunDoesNothing) {
   EXPECT_NE(again.out.find("0 of them now"), std::string::npos) << again.out;
 }
 
-std::string best_pose_of_the_join(const std::string& run) {
-  SQLite::Database database(run + "/run.sqlite", SQLite::OPEN_READONLY);
-  return database
-      .execAndGet(
-          "SELECT score || ' ' || m11 || ' ' || m12 || ' ' || m13 || ' ' || m14 FROM candidate WHERE rank = "
-          "1 AND "
-          "a = (SELECT id FROM fragment WHERE name = 'a7.ply') AND b = (SELECT id FROM fragment WHERE name = "
-          "'b7.ply')")
-      .getString();
-}
-
-TEST_F(Batch, OnlyPromisingPairsAreSearchedInFull) {
-  const std::string undisturbed = *home_ / "undisturbed";
-  const std::vector<std::string> stages = stages_in(undisturbed);
-  ASSERT_EQ(stages.size(), 3U);
-  EXPECT_EQ(stages[0], "a7.ply+a8.ply: sweep");
-  EXPECT_EQ(stages[1], "a7.ply+b7.ply: match");
-  const Finished thorough = run({"batch", scans(), "--out", run_, "--thorough"});
-  ASSERT_EQ(thorough.exit_code, 0) << thorough.err;
-  EXPECT_EQ(stages_in(run_), (std::vector<std::string>{"a7.ply+a8.ply: match", "a7.ply+b7.ply: match",
-                                                       "a8.ply+b7.ply: match"}));
-  EXPECT_EQ(best_pose_of_the_join(run_), best_pose_of_the_join(undisturbed));
+TEST_F(Batch, AllPairsOfFewScansAreSearchedInFull) {
+  EXPECT_EQ(
+      stages_in(*home_ / "undisturbed"),
+      (std::vector<std::string>{"a7.ply+a8.ply: match", "a7.ply+b7.ply: match", "a8.ply+b7.ply: match"}));
 }
 
 TEST_F(Batch, BadScanIsReportedAndTheRestGoesOn) {

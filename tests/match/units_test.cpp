@@ -30,6 +30,17 @@ TEST(Units, CentimetresBesideMillimetresAreTwoGroups) {
   EXPECT_FALSE(units_apart(sherds()));
 }
 
+TEST(Units, SolidPiecesBesideSherdsAreInTheGroupOfTheirUnit) {
+  std::vector<Lengths> box = sherds();
+  for (const std::size_t solid : {0U, 1U, 2U}) box[solid].wall = 0;
+  box[2] = in_unit(0.001, box[2]);
+  box[4] = in_unit(0.001, box[4]);
+  const auto groups = units_apart(box);
+  ASSERT_TRUE(groups);
+  EXPECT_EQ(groups->small, (Group{2, 4}));
+  EXPECT_EQ(groups->large, (Group{0, 1, 3}));
+}
+
 TEST(Units, ScansOfOneObjectInTwoUnitsAreToldByTheirRatio) {
   for (const double ratio : {10.0, 25.4, 39.37, 100.0, 1000.0}) {
     const auto groups = units_apart({sherds()[0], in_unit(1 / ratio, sherds()[0])});

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "core/random.hpp"
 #include "match/stability.hpp"
 #include "prepared_pair.hpp"
@@ -61,6 +63,48 @@ TEST(Score, GrowsWithStrengthBetweenZeroAndOne) {
   EXPECT_LT(score_of(-50.0), 0.01);
   EXPECT_GT(score_of(200.0), 0.99);
   for (double s = -20; s < 60; s += 1) EXPECT_LE(score_of(s), score_of(s + 1));
+}
+
+/// Strong, and with nothing against it.
+Evidence sound() {
+  Evidence evidence;
+  evidence.contact_area = evidence.shared_area = 100.0;
+  evidence.information = 50.0;
+  evidence.tolerance = 0.2;
+  return evidence;
+}
+
+bool tells(const std::string& text, const std::string& words) {
+  return text.find(words) != std::string::npos;
+}
+
+TEST(Against, NamesWhatTakesMostFromAJoint) {
+  Evidence open = sound();
+  open.shared_area = 200.0;
+  open.wall_share = 0.7;
+  EXPECT_TRUE(tells(objection(open), "50 % touches")) << objection(open);
+  Evidence inside = sound();
+  inside.penetration_area = 60.0;
+  EXPECT_TRUE(tells(objection(inside), "lies inside")) << objection(inside);
+  Evidence stepped = sound();
+  stepped.wall_share = 0.3;
+  EXPECT_TRUE(tells(objection(stepped), "only 30 % go on")) << objection(stepped);
+  Evidence loose = sound();
+  loose.gap_spread = 0.15;
+  EXPECT_TRUE(tells(objection(loose), "gap varies by 0.15")) << objection(loose);
+  EXPECT_EQ(objection(sound()), "");
+}
+
+TEST(Against, TellsWhatKeepsAHighScoreFromBeingAJoin) {
+  Stability stability;
+  stability.margin = 20.0;
+  EXPECT_EQ(against(sound(), 1.0, stability), "");
+  stability.margin = 1.0;
+  EXPECT_TRUE(tells(against(sound(), 1.0, stability), "another pose"));
+  stability.margin = 20.0;
+  stability.repeat_deg = 30.0;
+  EXPECT_TRUE(tells(against(sound(), 1.0, stability), "30.0 degrees"));
+  EXPECT_TRUE(tells(against(sound(), 0.1, stability), "too little shape"));
 }
 
 }  // namespace
