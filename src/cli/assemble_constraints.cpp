@@ -63,10 +63,16 @@ class Reader {
 
   [[noreturn]] void fail(const std::string& problem) const { throw InputError(path_, problem, kMend); }
 
+  /// The fragment that stands for a name: of a copy that of its content.
+  const std::string& meant(const std::string& name) const {
+    const auto copy = copies_.find(name);
+    return copy == copies_.end() ? name : copy->second;
+  }
+
   void require_no_both() const {
     for (const auto& [a, b] : asked_.named.must_join) {
       for (const auto& [c, d] : asked_.named.must_not_join) {
-        if (std::minmax(a, b) == std::minmax(c, d))
+        if (std::minmax(meant(a), meant(b)) == std::minmax(meant(c), meant(d)))
           fail(fmt::format("says that {} and {} must and must not join", a, b));
       }
     }
@@ -75,15 +81,14 @@ class Reader {
   /// \return nothing if it is a fragment that cannot be used
   std::optional<std::size_t> number_of(const ordered_json& name, const std::string& place) {
     if (!name.is_string()) fail(place + " is no name of a fragment");
-    const auto copy = copies_.find(name.get<std::string>());
-    const std::string meant = copy == copies_.end() ? name.get<std::string>() : copy->second;
-    const auto unusable = unusable_.find(meant);
+    const std::string fragment = meant(name.get<std::string>());
+    const auto unusable = unusable_.find(fragment);
     if (unusable != unusable_.end()) {
       asked_.left_out.push_back(fmt::format("{}: {} is left out, as \"{}\" can have no place ({})", path_,
                                             place, unusable->first, unusable->second));
       return std::nullopt;
     }
-    const auto found = std::find(names_.begin(), names_.end(), meant);
+    const auto found = std::find(names_.begin(), names_.end(), fragment);
     if (found == names_.end())
       fail(fmt::format("{}: there is no fragment \"{}\"{}", place, name.get<std::string>(),
                        hint_for(name.get<std::string>())));
@@ -92,9 +97,9 @@ class Reader {
 
   /// The fragment that was meant where its ending was left out.
   std::string hint_for(const std::string& name) const {
-    const auto meant = std::ranges::find_if(
+    const auto likely = std::ranges::find_if(
         names_, [&](const std::string& known) { return std::filesystem::path(known).stem() == name; });
-    return meant == names_.end() ? "" : fmt::format(" (\"{}\"?)", *meant);
+    return likely == names_.end() ? "" : fmt::format(" (\"{}\"?)", *likely);
   }
 
   /// \param named  takes them as they stand there
@@ -109,7 +114,8 @@ class Reader {
       const auto a = number_of(pair[0], place);
       const auto b = number_of(pair[1], place);
       named.emplace_back(pair[0].get<std::string>(), pair[1].get<std::string>());
-      if (named.back().first == named.back().second) fail(place + " names the same fragment twice");
+      if (meant(named.back().first) == meant(named.back().second))
+        fail(place + " names the same fragment twice");
       if (!a || !b) continue;
       result.emplace_back(std::min(*a, *b), std::max(*a, *b));
     }
