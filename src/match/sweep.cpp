@@ -144,7 +144,6 @@ std::vector<ReliefMap> turned_maps(const FacetPatch& b, double pitch, const std:
 }
 
 /// Of turns all around (near the rough pose, if there is one), those at which the patches agree best, each as `parts` of its step.
-/// None, if the patches agree nowhere at this pitch, at which a narrow one has no shape.
 /// \param evaluations  poses looked at are added
 std::vector<double> best_turns(const Task& task, double pitch, const std::vector<double>& all_around,
                                int parts, const std::optional<Near>& near, const Context& context,
@@ -184,14 +183,15 @@ SweepResult correlate_patches(const Task& task, double resolution, const SweepOp
   const double step = turn_step(a, b, pitch, options.turn_step_px);
   SweepResult result;
   std::vector<double> turns;
-  if (!are_strips(a, b) && kCoarse * wanted >= kWorthALook * pitch) {
+  if (are_strips(a, b) || kCoarse * wanted < kWorthALook * pitch) {
+    turns = turns_near(options.near, a, b, turns_for(a, b, step));
+  } else {
     const double coarse_pitch = kCoarse * wanted;
     const double coarse_step = turn_step(a, b, coarse_pitch, options.turn_step_px);
     const int parts = static_cast<int>(std::ceil(coarse_step / step - kSlack));
     turns = best_turns(task, coarse_pitch, turns_for(a, b, coarse_step), parts, options.near, context,
                        result.evaluations);
   }
-  if (turns.empty()) turns = turns_near(options.near, a, b, turns_for(a, b, step));
   if (turns.empty()) return result;
 
   const ReliefMap map_a = relief_of(a, pitch);

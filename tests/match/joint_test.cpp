@@ -120,6 +120,7 @@ TEST(Joint, EvidenceThatIsNotStrongEnoughIsToldEarlyAndNoOther) {
 TEST(Joint, TouchesWithinATwentiethOfTheWallOrOfATenthOfASmallSherd) {
   Fragment a;
   a.diameter = 50.0;
+  a.least_extent = 20.0;
   a.resolution = 0.1;
   a.facets.samples.spacing = 0.5;
   a.facets.wall_thickness = 4.0;
