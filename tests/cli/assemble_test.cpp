@@ -179,11 +179,16 @@ TEST_F(SecondAssembly, ThatFindsTheDiskFullLeavesTheFirstAsItWas) {
 
 TEST_F(SecondAssembly, ThatIsInterruptedWhileModelsAreMadeLeavesTheFirstAsItWas) {
   const auto models = contents_of(out_);
-  Running second({"assemble", run_, "--out", out_, "--constraints", wishes_});
-  ASSERT_TRUE(second.wait_for_stdout("placed, "));
-  second.interrupt();
-  const Finished finished = second.finish();
-  if (finished.exit_code == 0) GTEST_SKIP() << "it was too fast";
+  Finished finished;
+  finished.exit_code = 0;
+  for (int tries = 0; finished.exit_code == 0 && tries < 50; ++tries) {  // it may be done before it hears
+    std::filesystem::remove_all(out_);
+    std::filesystem::copy(*home_ / "out", out_, std::filesystem::copy_options::recursive);
+    Running second({"assemble", run_, "--out", out_, "--constraints", wishes_});
+    ASSERT_TRUE(second.wait_for_stdout("placed, "));
+    second.interrupt();
+    finished = second.finish();
+  }
   EXPECT_EQ(finished.exit_code, 130) << finished.err;
   EXPECT_NE(finished.err.find("interrupted; what an earlier assembly wrote stays"), std::string::npos)
       << finished.err;
