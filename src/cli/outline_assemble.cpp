@@ -61,7 +61,7 @@ std::string summary(const std::vector<outline::Piece>& pieces, const outline::As
     text += fmt::format("  object {}: {} pieces", group + 1, sizes[group]);
     if (parts > 1)
       text +=
-          fmt::format(", of which {} parts hold together by joins alone that are not sure (scores below {})",
+          fmt::format(", of which {} parts hold together only by joins that are not sure (scores below {})",
                       parts, outline::kSureScore);
     text += "\n";
   }
