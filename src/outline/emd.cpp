@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "outline/contact.hpp"
+#include "outline/detail/odds.hpp"
 #include "outline/frechet.hpp"
 
 namespace rejoin::outline {
@@ -122,7 +123,7 @@ class EmdMatcher final : public Matcher {
     candidate.pose = settle(a.silhouette, b.silhouette, candidate.pose, kTolerance * step, 4);
     const Contact contact = measure_contact(a.silhouette, b.silhouette, candidate.pose, kTolerance * step);
     if (contact.information <= 0.0 || contact.intrusion > kMostIntrusion * contact.length) return candidate;
-    candidate.score = 1.0 / (1.0 + std::exp((kEvenInformation - contact.information) / kInformationScale));
+    candidate.score = detail::score_of_odds((contact.information - kEvenInformation) / kInformationScale);
     candidate.boundary = boundary(a.forward, b.backward, stretch);
     if (measure_ == Measure::EarthMover) candidate.boundary = grown(a, b, candidate);
     return candidate;

@@ -12,6 +12,7 @@
 #include "outline/detail/coding.hpp"
 #include "outline/detail/distance_grid.hpp"
 #include "outline/detail/evidence.hpp"
+#include "outline/detail/odds.hpp"
 #include "outline/signal.hpp"
 
 namespace rejoin::outline {
@@ -227,7 +228,7 @@ std::vector<FittedJoin> distinct(std::vector<FittedJoin> joins, const Piece& b, 
 }
 
 double score_of(double evidence) {
-  return 1.0 / (1.0 + std::exp((kEvenEvidence - evidence) / kEvidenceScale));
+  return detail::score_of_odds((evidence - kEvenEvidence) / kEvidenceScale);
 }
 
 }  // namespace rejoin::outline

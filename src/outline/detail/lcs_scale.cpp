@@ -7,6 +7,7 @@
 #include "outline/common_subsequence.hpp"
 #include "outline/detail/independence.hpp"
 #include "outline/detail/local_alignment.hpp"
+#include "outline/detail/odds.hpp"
 
 namespace rejoin::outline::detail {
 namespace {
@@ -178,7 +179,7 @@ std::optional<LcsFit> LcsScale::judged(const Prepared& a, const Prepared& b, con
   if (overlap > 2.0 * allowed) return std::nullopt;
   result.evidence =
       agreement(a, b, seam, pose.flipped) * (1.0 - 0.5 * std::clamp(overlap / allowed - 0.5, 0.0, 1.0));
-  result.join.score = 1.0 / (1.0 + std::exp(-(result.evidence - kEvenEvidence) / kEvidenceScale));
+  result.join.score = score_of_odds((result.evidence - kEvenEvidence) / kEvidenceScale);
   return result;
 }
 

@@ -1,12 +1,13 @@
 #include "outline/detail/links.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <memory>
 #include <utility>
 
 #include "core/parallel.hpp"
+#include "outline/detail/odds.hpp"
+#include "outline/join_fit.hpp"
 
 namespace rejoin::outline::detail {
 namespace {
@@ -17,16 +18,10 @@ constexpr double kTolerance = 1.5;
 constexpr std::size_t kCandidates = 4;
 // Candidates of less than this score are noise.
 constexpr double kLeastScore = 0.02;
-// The score of a candidate that says nothing; see score_of().
-constexpr double kIdleScore = 0.0034;
 // A piece in a hole: whatever has about the hole's size follows its border round somehow, and mostly no other join tells more.
 // So the search must find it likely, or this share of the piece's border must touch the hole's.
 constexpr double kLeastInHole = 0.3;
 constexpr double kLeastTouching = 0.9;
-
-double log_odds(double score) {
-  return std::log(score) - std::log1p(-score);
-}
 
 /// Whether a candidate that lays one piece into a hole of the other may be used; true for all others.
 bool fills_hole(const JoinCandidate& candidate, const Silhouette& a, const Silhouette& b,
@@ -122,7 +117,8 @@ double fitting_step(const std::vector<Piece>& pieces, const std::vector<PairResu
 }  // namespace
 
 double evidence_of(double score) {
-  return log_odds(std::clamp(score, kIdleScore, 1.0 - 1e-12)) - log_odds(kIdleScore);
+  const double idle = score_of(0.0);  // of a candidate that says nothing
+  return odds_of_score(std::clamp(score, idle, 1.0 - 1e-12)) - odds_of_score(idle);
 }
 
 LinkedPieces link_pieces(const std::vector<Piece>& pieces, const std::vector<PairResult>& pairs,
