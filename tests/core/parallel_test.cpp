@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -37,16 +38,30 @@ TEST(SideBySide, OneThreadKeepsTheOrder) {
   for (std::size_t k = 0; k < order.size(); ++k) EXPECT_EQ(order[k], k);
 }
 
-TEST(SideBySide, ExceptionStopsFurtherJobsAndComesOut) {
-  const ThreadLimit limit(2);
-  std::atomic<int> started{0};
-  EXPECT_THROW(run_side_by_side(100000,
+TEST(SideBySide, ExceptionEndsTheJobsOfItsThreadAndComesOut) {
+  const ThreadLimit limit(1);
+  std::size_t started = 0;
+  EXPECT_THROW(run_side_by_side(100,
                                 [&](std::size_t k) {
                                   ++started;
                                   if (k == 3) throw std::runtime_error("job 3");
                                 }),
                std::runtime_error);
-  EXPECT_LT(started, 100000);
+  EXPECT_EQ(started, 4U);
+}
+
+TEST(SideBySide, ExceptionEndsTheJobsOfOtherThreads) {
+  const ThreadLimit limit(2);
+  std::atomic<std::size_t> started{0};
+  EXPECT_THROW(run_side_by_side(10000,
+                                [&](std::size_t k) {
+                                  ++started;
+                                  if (k == 3) throw std::runtime_error("job 3");
+                                  // The other thread cannot run all jobs while this one waits for a core.
+                                  std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                                }),
+               std::runtime_error);
+  EXPECT_LT(started, 10000U);
 }
 
 }  // namespace
