@@ -50,6 +50,8 @@ ordered_json truth_json(const std::string& solid, const shatter::Options& option
           {"erode", options.erosion * shattered.diameter},
           {"chips", options.chips},
           {"noise", options.noise * shattered.diameter},
+          {"correlated", options.correlated * shattered.diameter},
+          {"wavelength", options.wavelength * shattered.diameter},
           {"spacing", options.spacing * shattered.diameter},
           {"version", kVersion},
           {"fragments", fragments},
@@ -75,6 +77,9 @@ class ShatterCommand final : public Command {
     add_number(app, "--erosion", erosion_, {0, 5}, "radius of worn edges, 0 to 5 (0.1)");
     add_number(app, "--chips", options_.chips, {0, 100}, "mean number of chips off a fragment (3)");
     add_number(app, "--noise", noise_, {0, 1}, "deviation of the scanner, 0 to 1 (0.01)");
+    add_number(app, "--correlated", correlated_, {0, 1},
+               "deviation that near points share, as of photographs, 0 to 1 (0)");
+    add_number(app, "--wavelength", wavelength_, {0.1, 50}, "of that deviation, 0.1 to 50 (2)");
     add_number(app, "--spacing", spacing_, {0.05, 5}, "edge length of the meshes, 0.05 to 5 (0.4)");
   }
 
@@ -82,6 +87,8 @@ class ShatterCommand final : public Command {
     const OutputFolder output(out_);
     options_.erosion = erosion_ / 100.0;
     options_.noise = noise_ / 100.0;
+    options_.correlated = correlated_ / 100.0;
+    options_.wavelength = wavelength_ / 100.0;
     options_.spacing = spacing_ / 100.0;
     const mesh::Loaded loaded = mesh::load(path_, mesh::Weld::Places, mesh::Content::Whole);
     for (const std::string& warning : loaded.warnings) console.warning(warning);
@@ -113,6 +120,8 @@ class ShatterCommand final : public Command {
   std::string out_;
   double erosion_ = 0.1;
   double noise_ = 0.01;
+  double correlated_ = 0.0;
+  double wavelength_ = 2.0;
   double spacing_ = 0.4;
   shatter::Options options_;
 };

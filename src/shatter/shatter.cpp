@@ -258,16 +258,32 @@ void add_contacts(const Breaker& breaker, const mesh::Mesh& piece, std::size_t k
   }
 }
 
+/// How far points of a scan lie off the surface, mesh units.
+struct Deviation {
+  double noise = 0;  ///< of every point by itself, the standard deviation
+  Noise correlated;  ///< of what near points share
+};
+
+Deviation deviation_of(const Options& options, double diameter, std::uint64_t seed) {
+  constexpr double kOctave = 0.27;  // standard deviation of an octave of amplitude 1
+  const double wavelength = options.wavelength * diameter;
+  return {options.noise * diameter,
+          {.seed = seed,
+           .wavelength = wavelength,
+           .amplitude = options.correlated * diameter / kOctave,
+           .finest = 0.9 * wavelength}};
+}
+
 /// Moves a piece to a pose of its own and adds the scanner's noise.
-Piece scanned(mesh::Mesh piece, double noise, double reach, Random& random) {
+Piece scanned(mesh::Mesh piece, const Deviation& deviation, double reach, Random& random) {
   mesh::compute_normals(piece);
   Rigid away{random_rotation(random), {}};
   for (int k = 0; k < 3; ++k) away.translation[k] = random.uniform(-reach, reach);
   piece.origin = away(piece.origin);
   for (std::size_t v = 0; v < piece.vertices.size(); ++v) {
-    const glm::dvec3 shifted =
-        glm::dvec3(piece.vertices[v]) + noise * random.normal() * glm::dvec3(piece.normals[v]);
-    piece.vertices[v] = glm::vec3(away.rotation * shifted);
+    const glm::dvec3 point(piece.vertices[v]);
+    const double off = deviation.noise * random.normal() + deviation.correlated.value(point);
+    piece.vertices[v] = glm::vec3(away.rotation * (point + off * glm::dvec3(piece.normals[v])));
   }
   piece.normals.clear();
   return {std::move(piece), inverse(away)};
@@ -294,7 +310,8 @@ Shattered shatter(const std::string& name, const mesh::Mesh& object, const Optio
                        "ask for fewer pieces or a finer grid");
     const mesh::Mesh piece = largest_part(whole);
     add_contacts(breaker, piece, k, areas);
-    result.pieces.push_back(scanned(piece, options.noise * breaker.diameter(), breaker.diameter(), random));
+    const Deviation deviation = deviation_of(options, breaker.diameter(), options.seed + 1000 + k);
+    result.pieces.push_back(scanned(piece, deviation, breaker.diameter(), random));
     context.report("shatter", static_cast<double>(k + 1) / options.pieces);
   }
   const double least = kLeastContact * breaker.spacing() * breaker.spacing();

@@ -21,6 +21,9 @@ struct Options {
   double chips = 3.0;        ///< mean number of chips off a fragment's edges
   double chip_size = 0.012;  ///< largest radius of a chip
   double noise = 0.0001;     ///< standard deviation of the scanner's error along the normal
+  double correlated =
+      0.0;  ///< standard deviation of the error that near points share, along the normal, as of photographs
+  double wavelength = 0.02;  ///< of that: points half of it apart share 0.4 of it
   double spacing = 0.004;    ///< edge length of the fragments' meshes
 };
 

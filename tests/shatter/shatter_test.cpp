@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <utility>
+#include <vector>
+
 #include "../mesh/shapes.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -125,6 +129,45 @@ TEST(Shatter, SameSeedSamePiecesForAnyNumberOfThreads) {
     EXPECT_EQ(many.pieces[k].scan.faces, single.pieces[k].scan.faces);
     EXPECT_NE(many.pieces[k].scan.vertices, other.pieces[k].scan.vertices);
   }
+}
+
+/// How far the points of a broken ball's first piece lie off that piece without the deviation, outwards.
+std::vector<double> offsets_of(const Options& with) {
+  Options without = with;
+  without.noise = without.correlated = 0.0;
+  const mesh::Mesh exact = std::move(broken_ball(without).pieces.front().scan);
+  const mesh::Mesh moved = std::move(broken_ball(with).pieces.front().scan);
+  mesh::Mesh normals = exact;
+  mesh::compute_normals(normals);
+  std::vector<double> offsets;
+  for (std::size_t v = 0; v < exact.vertices.size(); ++v)
+    offsets.push_back(glm::dot(moved.vertices[v] - exact.vertices[v], normals.normals[v]));
+  return offsets;
+}
+
+double mean_square(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double v : values) sum += v * v;
+  return sum / static_cast<double>(values.size());
+}
+
+TEST(Shatter, CorrelatedNoiseHasItsDeviationAndIsSharedByNeighbours) {
+  Options options = coarse(2);
+  options.spacing = 0.02;
+  options.correlated = 0.004;
+  options.wavelength = 0.2;
+  const std::vector<double> shared = offsets_of(options);
+  EXPECT_NEAR(std::sqrt(mean_square(shared)) / (2.0 * kRadius), options.correlated, 0.2 * options.correlated);
+  // Points of one edge are a tenth of the wavelength apart: they differ little, where noise of single points does not.
+  const mesh::Mesh scan = std::move(broken_ball(options).pieces.front().scan);
+  const auto steps_of = [&](const std::vector<double>& offsets) {
+    std::vector<double> steps;
+    for (const glm::uvec3& face : scan.faces) steps.push_back(offsets[face.x] - offsets[face.y]);
+    return mean_square(steps) / mean_square(offsets);
+  };
+  EXPECT_LT(steps_of(shared), 0.2);
+  std::swap(options.noise, options.correlated);
+  EXPECT_NEAR(steps_of(offsets_of(options)), 2.0, 0.2);
 }
 
 TEST(Shatter, AnOpenSurfaceIsRefused) {
