@@ -308,6 +308,8 @@ class Assembler {
     };
     if (among(options_.constraints.must_not_join, best->a, best->b))
       return named("its best join is one that must not be: with");
+    if (best->score < match::kPossible)
+      return fmt::format("nothing fits it: its best score with another fragment is {:.3f}", best->score);
     if (best->holds || best->score < options_.sure) return named("no join is sure: the best is with");
     return named("no join is sure: the best is with") +
            ", but another pose of the two is nearly as good, or parts of their surfaces disagree on the pose";

@@ -30,6 +30,10 @@ constexpr std::array kFormats{
     Format{".pts", "pts", detail::read_xyz},
 };
 
+/// Of what `rejoin outline` reads.
+constexpr std::array<std::string_view, 8> kFlat{".png",  ".jpg", ".jpeg", ".tif",
+                                                ".tiff", ".svg", ".csv",  ".geojson"};
+
 const Format* find_format(const std::string& extension) {
   const auto* found = std::find_if(kFormats.begin(), kFormats.end(),
                                    [&](const Format& format) { return extension == format.extension; });
@@ -39,6 +43,9 @@ const Format* find_format(const std::string& extension) {
 const Format& format_of(const std::filesystem::path& path) {
   const std::string extension = extension_of(path);
   if (const Format* format = find_format(extension)) return *format;
+  if (std::ranges::find(kFlat, extension) != kFlat.end())
+    throw InputError(path.string(), "is a picture or an outline",
+                     "scans of solid pieces are meshes or clouds; flat pieces are matched by rejoin outline");
   throw InputError(path.string(),
                    extension.empty() ? "has no file name extension" : "unknown extension " + extension,
                    "use one of .ply .obj .stl .off .glb .gltf .drc .xyz .pts");

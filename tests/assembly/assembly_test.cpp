@@ -135,6 +135,13 @@ TEST(Assemble, AnUnsureJoinIsNotUsedAlone) {
   EXPECT_NE(result.placements[corner.a].reason.find("no join is sure"), std::string::npos);
 }
 
+TEST(Assemble, AnImpossibleJoinIsNotOfferedAsTheBest) {
+  const Corner corner = corner_of(ball());
+  const Result result = run(ball(), {ball().true_link(corner.a, corner.b, 0.001)});
+  EXPECT_EQ(result.placements[corner.a].reason,
+            "nothing fits it: its best score with another fragment is 0.001");
+}
+
 TEST(Assemble, AJoinOfHighScoreThatDoesNotHoldNeedsAWitness) {
   const Corner corner = corner_of(ball());
   std::vector<Link> links{ball().true_link(corner.a, corner.b, 0.9999)};

@@ -81,6 +81,7 @@ TEST_F(Malformed, FilesUnderAnotherKindsName) {
 
 TEST_F(Malformed, UnknownExtensionAndMissingFileAndFolder) {
   expect("a.abc", "0 0 0\n", Kind::Input, "unknown extension .abc");
+  expect("sherd.jpeg", "\xff\xd8", Kind::Input, "flat pieces are matched by rejoin outline");
   expect("scan", "0 0 0\n", Kind::Input, "no file name extension");
   expect_error(folder_ / "missing.ply", Kind::Io, "cannot be opened");
   expect_error(folder_ / "missing/a.ply", Kind::Io, "cannot be opened");
