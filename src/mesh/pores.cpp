@@ -19,6 +19,7 @@ constexpr std::size_t kPlaces = 1000;
 constexpr std::size_t kDirections = 32;
 constexpr double kReach = 0.1;       // of the piece's size, in which directions end
 constexpr float kDeep = 0.4F;        // of the directions are free, at most, deep in a pore
+constexpr double kMostPores = 0.8;   // of the area is left out, at most: else it is no piece with pores
 constexpr float kOpen = 0.7F;        // are free, at least, of what counts as open
 constexpr double kPorous = 0.1;      // of a porous piece's area is deep
 constexpr std::size_t kMouths = 12;  // of a porous piece
@@ -122,8 +123,10 @@ std::optional<Open> without_pores(const Mesh& mesh, double size) {
   std::vector<std::uint32_t> kept;
   for (std::uint32_t f = 0; f < open.size(); ++f)
     if (open[f] >= kOpen) kept.push_back(f);
+  if (kept.empty()) return std::nullopt;
   Open left{.surface = submesh(mesh, kept)};
   left.share = 1.0 - surface_area(left.surface) / surface_area(mesh);
+  if (left.share > kMostPores) return std::nullopt;
   return left;
 }
 

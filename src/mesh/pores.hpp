@@ -18,7 +18,7 @@ struct Open {
 /// A piece is porous if a tenth of its area or more lies deep in something, and if that has many mouths: a vessel's inside,
 /// a canal of a long bone and a fold of a figure have few.
 /// \param size  diameter of the piece, mesh units: pores are small against it
-/// \return nothing if the piece is not porous
+/// \return nothing if the piece is not porous, or hardly anything of it would be left
 /// \pre the mesh has faces
 std::optional<Open> without_pores(const Mesh& mesh, double size);
 

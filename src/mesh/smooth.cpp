@@ -21,6 +21,7 @@ constexpr float kSameSide = 0.2F;    // cosine to the normals that are averaged,
 constexpr float kSmooth = 0.7F;      // and to those of the points that a quadric is laid through
 constexpr double kSpread = 0.3;      // of the radius: deviation of the weights
 constexpr std::size_t kEnough = 12;  // for the six unknowns of a quadric
+constexpr std::size_t kMost = 256;   // of the neighbours; even scans have 30 to 50
 
 std::vector<glm::vec3> normals_of(const Mesh& mesh, const detail::Lists& near) {
   std::vector<glm::vec3> normals = area_normals(mesh);
@@ -77,7 +78,7 @@ std::vector<glm::vec3> to_ring_middles(const Mesh& mesh) {
 Mesh smooth(const Mesh& mesh, double radius) {
   Mesh even = mesh;
   for (int round = 0; round < kRounds; ++round) {
-    const detail::Lists near = detail::neighbours_within(even.vertices, radius);
+    const detail::Lists near = detail::neighbours_within(even.vertices, radius, kMost);
     const std::vector<glm::vec3> normals = normals_of(even, near);
     std::vector<glm::vec3> moves = to_ring_middles(even);
     parallel_for(moves.size(), 128, [&](std::size_t first, std::size_t last) {

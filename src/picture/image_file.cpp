@@ -146,6 +146,10 @@ std::optional<ImageHeader> jpeg_header(std::string_view bytes) {
   std::size_t place = 2;
   double resolution = jpeg_resolution(bytes);
   while (const auto marker = number_at(bytes, place, 2, true)) {
+    if (*marker == 0xFFFF) {  // a byte of filling
+      ++place;
+      continue;
+    }
     const auto length = number_at(bytes, place + 2, 2, true);
     if (*marker < 0xFF00 || !length) return std::nullopt;
     if (*marker == 0xFFE1 && resolution == 0.0)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/error.hpp"
 #include "core/random.hpp"
@@ -428,6 +429,21 @@ TEST(Clean, DropsAVertexFarFromTheRestWithItsFaces) {
             std::string::npos)
       << loaded.warnings[0];
   EXPECT_LT(diameter(loaded.mesh), 2.1);
+}
+
+// The tip of a long cone of a fan of faces: all faces would go with it.
+TEST(Clean, KeepsAVertexFarFromTheRestThatManyFacesMeetAt) {
+  constexpr std::uint32_t kRim = 3000;
+  Mesh fan;
+  for (std::uint32_t k = 0; k < kRim; ++k) {
+    const double angle = 2.0 * std::numbers::pi * k / kRim;
+    fan.vertices.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+    fan.faces.emplace_back(k, (k + 1) % kRim, kRim);
+  }
+  fan.vertices.emplace_back(0.0F, 0.0F, 20.0F);
+  const Mesh kept = through_ply(fan).mesh;
+  EXPECT_EQ(kept.faces.size(), kRim);
+  EXPECT_GT(diameter(kept), 20.0);
 }
 
 TEST(Clean, KeepsFloatsNearTheOriginAsTheyAre) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/random.hpp"
+#include "mesh/detail/mean_normals.hpp"
 #include "mesh/detail/neighbour_lists.hpp"
 #include "mesh/point_index.hpp"
 #include "random_points.hpp"
@@ -48,6 +49,22 @@ TEST(Neighbours, AreRightWhereFewPointsSpreadFar) {
   for (glm::vec3& point : points) point = random_point(random, 1.0F, kThin);
   points.emplace_back(1000.0F, -500.0F, 0.0F);
   expect_answers_of_point_index(points, 0.1F, 1.0F);
+}
+
+// Scans are dense here and there: lists of all neighbours would grow with the square of that.
+TEST(Neighbours, OfManyAboutSoManyAreKeptEvenly) {
+  std::vector<glm::vec3> points;
+  for (int k = 0; k < 1000; ++k) points.emplace_back(0.001F * static_cast<float>(k), 0.0F, 0.0F);
+  const detail::Lists all = detail::neighbours_within(points, 0.3);
+  const detail::Lists some = detail::neighbours_within(points, 0.3, 50);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    ASSERT_GT(all[i].size(), 50U);
+    EXPECT_LE(some[i].size(), 50U);
+    EXPECT_GT(some[i].size(), 25U);
+    EXPECT_TRUE(std::ranges::includes(all[i], some[i]));
+    EXPECT_EQ(some[i].front(), all[i].front());
+    EXPECT_GT(some[i].back(), all[i].back() - 15U);
+  }
 }
 
 TEST(Neighbours, WithoutPointsThereAreNone) {

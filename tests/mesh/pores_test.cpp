@@ -51,6 +51,16 @@ TEST(Pores, OfASpongeWhatLiesOpenIsLeft) {
   EXPECT_GT(open->share, 0.3);
 }
 
+// A ball of needles is deep everywhere: without what lies in "pores" hardly anything would be left to match.
+TEST(Pores, WhatIsDeepNearlyEverywhereIsKeptWhole) {
+  Mesh needles = test::icosphere(10.0F, 6);
+  for (glm::vec3& v : needles.vertices) {
+    const glm::vec3 at = 2.5F * v;
+    v *= 1.0F + 0.35F * std::pow(std::abs(std::sin(at.x) * std::sin(at.y) * std::sin(at.z)), 0.5F);
+  }
+  EXPECT_FALSE(without_pores(needles, diameter(needles)));
+}
+
 TEST(Pores, OfItsSidesOnlyTheCellsAreLeftOut) {
   const Mesh whole = sponge_where(everywhere);
   const auto open = without_pores(whole, diameter(whole));

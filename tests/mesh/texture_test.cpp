@@ -68,6 +68,18 @@ TEST_F(ObjTexture, GivesVerticesTheColourOfTheirPlaceWhichIsCountedFromBelow) {
   EXPECT_EQ(colour_at(loaded.mesh, {0, 1, 0}), kWhite);
 }
 
+TEST_F(ObjTexture, NumberSignsInNamesStartNoComment) {
+  folder_.write("skin#1.png", four_colours());
+  folder_.write("a.mtl",
+                "# all of them\nnewmtl part_#1 # painted\nmap_Kd skin#1.png\nnewmtl part_#2\nKd 0 0 1\n");
+  const Loaded loaded =
+      load(folder_.write("a.obj",
+                         "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 5 1 0\nvt 0.25 0.25\n"
+                         "usemtl part_#1\nf 1/1 2/1 3/1\nusemtl part_#2\nf 4/1 5/1 6/1\n"));
+  EXPECT_EQ(colour_at(loaded.mesh, {0, 0, 0}), kBlue);
+  EXPECT_EQ(colour_at(loaded.mesh, {5, 0, 0}), kWhite);
+}
+
 TEST_F(ObjTexture, IsFoundWhereTheFileWasMovedAndBehindOptions) {
   std::filesystem::create_directory(folder_ / "maps");
   folder_.write("maps/skin.png", four_colours());

@@ -111,6 +111,19 @@ TEST(ExtractFiles, SmallPictureInsideDoesNotEndAJpeg) {
   expect_refusal(folder.file("camera.jpg"), "cut short");
 }
 
+// The standard lets any number of bytes 0xFF stand before a marker.
+TEST(ExtractFiles, FillingBeforeTheMarkersOfAJpegIsPassedOver) {
+  const Folder folder;
+  std::vector<unsigned char> bytes;
+  cv::imencode(".jpg", painted(disc({128, 120}), {0.5, 0.6, 0.7}, {0, 0, 0}, 255, CV_8UC3), bytes);
+  const std::size_t second = 4 + 256U * bytes[4] + bytes[5];  // marker, behind the first segment
+  ASSERT_EQ(bytes[second], 0xFF);
+  bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(second), 3, 0xFF);
+  std::ofstream(folder.file("filled.jpg"), std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  EXPECT_NO_THROW(extract(folder.file("filled.jpg")));
+}
+
 TEST(ExtractFiles, HugeClaimIsRefusedBeforeDecoding) {
   const Folder folder;
   cv::imwrite(folder.file("disc.png"), with_alpha(disc({128, 120})));

@@ -1,6 +1,7 @@
 /// Normals averaged over neighbourhoods.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
@@ -14,7 +15,8 @@ inline constexpr double kNormalRadius =
     2.0;  ///< samples' spacings over which their normals are averaged: about 12 neighbours
 
 /// Of every point the points closer than the radius, itself among them.
-Lists neighbours_within(std::span<const glm::vec3> points, double radius);
+/// \param most  where there are more, as in dense parts of uneven scans, about so many of them, evenly; 0: all
+Lists neighbours_within(std::span<const glm::vec3> points, double radius, std::size_t most = 0);
 
 /// Unit means over the neighbours that look about the same way, as the far side of a thin wall does not.
 /// \param near   of every normal's point

@@ -79,6 +79,7 @@ Specks drop_specks(Mesh& mesh) {
 
 Spikes drop_spikes(Mesh& mesh) {
   constexpr std::size_t kOneIn = 1000;
+  constexpr std::size_t kOneFaceIn = 100;
   constexpr std::size_t kSampled = 10000;
   const std::vector<glm::vec3>& vertices = mesh.vertices;
   if (vertices.size() < kOneIn) return {};
@@ -93,8 +94,12 @@ Spikes drop_spikes(Mesh& mesh) {
   Spikes spikes;
   for (std::uint32_t v = 0; v < vertices.size(); ++v) spikes.vertices += is_far(v) ? 1 : 0;
   if (spikes.vertices == 0 || kOneIn * spikes.vertices > vertices.size()) return {};
-  spikes.faces = std::erase_if(
-      mesh.faces, [&](const glm::uvec3& face) { return is_far(face.x) || is_far(face.y) || is_far(face.z); });
+  const auto of_spike = [&](const glm::uvec3& face) {
+    return is_far(face.x) || is_far(face.y) || is_far(face.z);
+  };
+  const auto faces = static_cast<std::size_t>(std::ranges::count_if(mesh.faces, of_spike));
+  if (kOneFaceIn * faces > mesh.faces.size()) return {};  // the tip of a fan is no mistake
+  spikes.faces = std::erase_if(mesh.faces, of_spike);
   drop_unused_vertices(mesh);
   return spikes;
 }

@@ -20,6 +20,15 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
+/// Of what follows "#" at the start or after a blank: names may have one in them, as "Material_#1".
+std::size_t start_of_comment(std::string_view line) {
+  std::size_t place = line.find('#');
+  while (place != std::string_view::npos && place > 0 &&
+         kBlank.find(line[place - 1]) == std::string_view::npos)
+    place = line.find('#', place + 1);
+  return place;
+}
+
 /// What from_chars() leaves alone because no number holds it: 0 or infinite.
 double beyond_range(std::string_view word, double /*type*/) {
   return std::strtod(std::string(word).c_str(), nullptr);
@@ -79,7 +88,7 @@ bool TextLines::next_line() {
     rest_.remove_prefix(end);
     rest_.remove_prefix(rest_.starts_with("\r\n") ? 2 : std::min<std::size_t>(1, rest_.size()));
     ++number_;
-    line = trimmed(line.substr(0, line.find('#')));
+    line = trimmed(line.substr(0, start_of_comment(line)));
     if (line.ends_with('\\')) {
       joined_.append(line.substr(0, line.size() - 1)).push_back(' ');
       continue;
