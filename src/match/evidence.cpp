@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,19 +12,20 @@
 #include <vector>
 
 #include "core/median.hpp"
-#include "core/tukey.hpp"
 #include "match/align.hpp"
 #include "match/detail/joint_sides.hpp"
+#include "match/detail/shape.hpp"
 #include "mesh/neighbours.hpp"
 
 namespace rejoin::match {
 namespace {
 
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using detail::Finder;
+using detail::heights_above_quadric;
 using detail::kFacing;
 using detail::kWallNear;
+using detail::middle_and_axis;
+using detail::robust_deviation;
 
 constexpr int kBodySamples = 4000;  // of B that are asked whether they lie inside A
 constexpr double kWallStep = 0.3;   // wall thicknesses by which walls that go on may be offset
@@ -33,82 +33,25 @@ constexpr double kWallsTell = 0.1;  // of the shared area, of walls at the seam 
 constexpr double kScanned = 0.5;    // wall thicknesses within which a scan has surface where it was scanned
 constexpr double kWallBend = 0.25;  // walls bend by at most 75 degrees at a seam
 constexpr int kQuadricRounds = 12;  // at most
-constexpr double kQuadricSteady = 0.02;  // share by which the deviation may still change in the end
-constexpr double kQuadricReach = 7.0;    // robust deviations beyond which a height does not bend the quadric
-constexpr double kLoose = 0.5;           // gap spread, in tolerances, that halves what a joint is worth
-constexpr double kOpenCosts = 4.0;       // exponent of the share that touches
-constexpr double kContact = 0.2;         // nats that a touching patch is worth among poses of one pair
-constexpr double kMostPatches = 16.0;    // more contact than this says no more
-constexpr double kWallsGoOn = 0.8;       // share of the walls that go on across a true seam, at least
-constexpr double kBorderNear = 0.4;      // patches next to the contact that are left out: worn edges lie
-constexpr double kBorderFar = 2.0;       // patches around the contact in which skin is compared
-constexpr double kBorderAlike = 0.8;     // normals across a border differ by at most 37 degrees
-constexpr double kBorderStep = 0.3;      // patches by which skin that goes on may be offset
-constexpr double kByChance = 4.0;        // patches of skin that go on at wrong poses, too
-constexpr double kContinuation = 0.5;    // strength of every further patch
+constexpr double kLoose = 0.5;      // gap spread, in tolerances, that halves what a joint is worth
+constexpr double kOpenCosts = 4.0;  // exponent of the share that touches
+constexpr double kContact = 0.2;    // nats that a touching patch is worth among poses of one pair
+constexpr double kMostPatches = 16.0;  // more contact than this says no more
+constexpr double kWallsGoOn = 0.8;     // share of the walls that go on across a true seam, at least
+constexpr double kBorderNear = 0.4;    // patches next to the contact that are left out: worn edges lie
+constexpr double kBorderFar = 2.0;     // patches around the contact in which skin is compared
+constexpr double kBorderAlike = 0.8;   // normals across a border differ by at most 37 degrees
+constexpr double kBorderStep = 0.3;    // patches by which skin that goes on may be offset
+constexpr double kByChance = 4.0;      // patches of skin that go on at wrong poses, too
+constexpr double kContinuation = 0.5;  // strength of every further patch
 constexpr double kMostContinuation = 4.5;
 constexpr std::array kScales{1.5,
                              3.0};      // patches: radii of the surroundings that tell small shape from large
 constexpr double kSmallestShare = 0.4;  // of the information, by scales: right poses have as much
 constexpr double kHalf = 0.5;           // of the shape's worth: what takes that is told
+constexpr double kNearCosts = 6.0;      // strength: within kNear tolerances more fits by chance
+constexpr double kNearPart = 0.6;       // of what counts there, at most: of exact scans the tolerance decides
 constexpr double kNoLimit = -std::numeric_limits<double>::infinity();
-
-/// 1.48 times the median absolute deviation: the standard deviation of what is not outliers.
-double robust_deviation(std::vector<double> values) {
-  const double middle = median(values);
-  for (double& v : values) v = std::abs(v - middle);
-  return 1.48 * median(values);
-}
-
-/// Heights of points along `normal` above the quadric that fits them best; with more rounds, that fits most of them best.
-std::vector<double> heights_above_quadric(const std::vector<glm::dvec3>& points, const glm::dvec3& normal,
-                                          int rounds) {
-  const glm::dmat3 frame = frame_of(normal);
-  glm::dvec3 centre(0.0);
-  for (const auto& p : points) centre += p / static_cast<double>(points.size());
-  double size = 0.0;
-  for (const auto& p : points) size = std::max(size, glm::distance(p, centre));
-  std::vector<Vector6> rows;
-  std::vector<double> heights;
-  for (const auto& p : points) {
-    const glm::dvec3 q = (p - centre) * frame / size;
-    Vector6 row;
-    row << 1.0, q.x, q.y, q.x * q.x, q.x * q.y, q.y * q.y;
-    rows.push_back(row);
-    heights.push_back(q.z);
-  }
-  std::vector<double> rest = heights;
-  double reach = std::numeric_limits<double>::infinity();
-  for (int round = 0; round < rounds; ++round) {
-    Matrix6 matrix = 1e-9 * static_cast<double>(points.size()) * Matrix6::Identity();
-    Vector6 right = Vector6::Zero();
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const double weight = tukey(rest[i], reach);
-      matrix += weight * rows[i] * rows[i].transpose();
-      right += weight * heights[i] * rows[i];
-    }
-    const Vector6 fit = matrix.ldlt().solve(right);
-    for (std::size_t i = 0; i < rows.size(); ++i) rest[i] = heights[i] - fit.dot(rows[i]);
-    const double next = kQuadricReach * std::max(1e-12, robust_deviation(rest));
-    if (std::abs(next - reach) < kQuadricSteady * next) break;
-    reach = next;
-  }
-  for (double& height : rest) height *= size;
-  return rest;
-}
-
-/// Mean of points, and the direction in which they spread most.
-std::pair<glm::dvec3, glm::dvec3> middle_and_axis(const std::vector<glm::dvec3>& points) {
-  glm::dvec3 centre(0.0);
-  for (const auto& p : points) centre += p / static_cast<double>(points.size());
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const auto& p : points) {
-    const Eigen::Vector3d q(p.x - centre.x, p.y - centre.y, p.z - centre.z);
-    spread += q * q.transpose();
-  }
-  const Eigen::Vector3d axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
-  return {centre, {axis.x(), axis.y(), axis.z()}};
-}
 
 /// Looks from B's samples to A.
 class Look {
@@ -186,16 +129,19 @@ class Look {
     std::vector<glm::dvec3> core;  ///< of these, what is not next to another facet, A's axes
     std::vector<double> core_gaps;
     std::vector<glm::vec3> touching;  ///< of all, A's axes
-    std::size_t unbacked = 0;         ///< of these, how many have nothing behind them on either side
-    double area = 0;                  ///< of what lies over A
-    glm::dvec3 normal{0.0};           ///< sum of A's
+    std::size_t near_touching = 0;    ///< how many touch, and lie over A, within kNear times the distances
+    std::size_t near_shared = 0;
+    std::size_t unbacked = 0;  ///< of those that touch, how many have nothing behind them on either side
+    double area = 0;           ///< of what lies over A
+    glm::dvec3 normal{0.0};    ///< sum of A's
 
     bool has_shape() const { return core.size() >= 12 && glm::length(normal) > 0; }
   };
 
   Contact contact_of(const std::vector<std::uint32_t>& from) const {
     Contact c;
-    const auto farthest = static_cast<float>(std::hypot(lengths_.spacing, kOver * lengths_.tolerance));
+    const double over = kOver * lengths_.tolerance;
+    const auto farthest = static_cast<float>(std::hypot(lengths_.spacing, kNear * over));
     const detail::Chosen chosen =
         detail::chosen_in(a_.broken_box, farthest, b_.broken.points, from, move_, most_samples_);
     for (const std::uint32_t i : chosen.list) {
@@ -207,8 +153,11 @@ class Look {
       const auto gap = static_cast<double>(glm::dot(offset, n));
       const double aside =
           std::sqrt(std::max(0.0, static_cast<double>(glm::dot(offset, offset)) - gap * gap));
-      if (aside > lengths_.spacing || std::abs(gap) > kOver * lengths_.tolerance) continue;
+      if (aside > lengths_.spacing || std::abs(gap) > kNear * over) continue;
       if (glm::dot(n, move_.direction(b_.broken.normals[i])) > kFacing) continue;
+      ++c.near_shared;
+      if (std::abs(gap) <= kNear * lengths_.tolerance) ++c.near_touching;
+      if (std::abs(gap) > over) continue;
       c.gaps.push_back(gap);
       c.area += chosen.each * static_cast<double>(b_.broken.areas[i]);
       c.normal += glm::dvec3(n);
@@ -227,6 +176,8 @@ class Look {
     // Single samples' areas vary too much to tell shares of the contact by them.
     const double each = c.area / static_cast<double>(std::max<std::size_t>(1, c.gaps.size()));
     e.contact_area = static_cast<double>(c.touching.size()) * each;
+    e.near_contact_area = static_cast<double>(c.near_touching) * each;
+    e.near_shared_area = static_cast<double>(c.near_shared) * each;
     e.shared_area = c.area;
     e.unbacked_area = static_cast<double>(c.unbacked) * each;
     e.patch_area = lengths_.patch * lengths_.patch;
@@ -244,6 +195,7 @@ class Look {
     e.information = 0.5 * static_cast<double>(c.core.size()) * each / e.patch_area *
                     std::log((e.relief * e.relief + lengths_.noise * lengths_.noise) /
                              (e.gap_spread * e.gap_spread + lengths_.noise * lengths_.noise));
+    e.near_information = e.information;
   }
 
   /// Squared robust deviations of values at points from their means over the surroundings, from the smallest scale to the whole.
@@ -368,9 +320,14 @@ class Look {
 };
 
 /// Of what lies over the other surface or inside the other body, the share that touches.
+/// \param touching, shared  areas
+double share_of(double touching, double shared, const Evidence& evidence) {
+  const double all = shared + evidence.penetration_area;
+  return all > 0 ? touching / all : 0.0;
+}
+
 double touching_share(const Evidence& evidence) {
-  const double all = evidence.shared_area + evidence.penetration_area;
-  return all > 0 ? evidence.contact_area / all : 0.0;
+  return share_of(evidence.contact_area, evidence.shared_area, evidence);
 }
 
 /// What leaves of the shape's information what it is worth, each 0 to 1.
@@ -378,27 +335,46 @@ struct Reserves {
   double touching;  ///< by what lies over the other surface or in the other body without touching it
   double walls;     ///< by walls that do not go on
   double tight;     ///< by gaps that vary
+
+  double left() const { return touching * walls * tight; }
 };
+
+/// \param touching   share of what lies over the other surface that touches within the tolerance
+/// \param tolerance  above 0
+Reserves reserves_within(double touching, double tolerance, const Evidence& evidence) {
+  const double loose = evidence.gap_spread / (kLoose * tolerance);
+  const double walls = std::min(1.0, evidence.wall_share / kWallsGoOn);
+  return {std::pow(touching, kOpenCosts), walls * walls, 1.0 / (1.0 + loose * loose * loose * loose)};
+}
 
 /// \pre the tolerance is above 0
 Reserves reserves_of(const Evidence& evidence) {
-  const double loose = evidence.gap_spread / (kLoose * evidence.tolerance);
-  const double walls = std::min(1.0, evidence.wall_share / kWallsGoOn);
-  return {std::pow(touching_share(evidence), kOpenCosts), walls * walls,
-          1.0 / (1.0 + loose * loose * loose * loose)};
+  return reserves_within(touching_share(evidence), evidence.tolerance, evidence);
 }
 
-/// What the shape of the broken surfaces is worth.
-double strength_of_shape(const Evidence& evidence) {
-  if (touching_share(evidence) <= 0 || evidence.tolerance <= 0) return 0.0;
-  const Reserves reserves = reserves_of(evidence);
-  return evidence.information * reserves.touching * reserves.walls * reserves.tight;
+/// What the shape of the broken surfaces is worth, within the tolerance and within kNear of it.
+struct Worth {
+  double close = 0;
+  double near = 0;
+
+  double strength() const { return std::max(close, std::min(near - kNearCosts, kNearPart * near)); }
+  bool none() const { return close <= 0.0 && near <= 0.0; }
+};
+
+Worth worth_of(const Evidence& evidence) {
+  if (touching_share(evidence) <= 0 || evidence.tolerance <= 0) return {};
+  const double near_share = share_of(evidence.near_contact_area, evidence.near_shared_area, evidence);
+  const Reserves near = reserves_within(near_share, kNear * evidence.tolerance, evidence);
+  return {evidence.information * reserves_of(evidence).left(), evidence.near_information * near.left()};
 }
 
-/// What strength_of_shape() can be at most once a look is complete: what is inside the other body and walls that do not go on only
-/// take from it.
-double most_of_shape(const Evidence& begun) {
-  return std::max(0.0, strength_of_shape(begun));
+/// The geometric mean, of what is above 0.
+double agreed(double there, double back) {
+  return std::sqrt(std::max(0.0, there) * std::max(0.0, back));
+}
+
+Worth agreed(const Worth& there, const Worth& back) {
+  return {agreed(there.close, back.close), agreed(there.near, back.near)};
 }
 
 /// The same for what continuation adds.
@@ -420,8 +396,9 @@ double median_gap(std::vector<double> gaps) {
 
 double strength(const Evidence& evidence) {
   const double further = std::max(0.0, evidence.continuation - kByChance);
-  return strength_of_shape(evidence) + std::min(kMostContinuation, kContinuation * further) *
-                                           std::pow(touching_share(evidence), kOpenCosts);
+  const double skin =
+      std::min(kMostContinuation, kContinuation * further) * std::pow(touching_share(evidence), kOpenCosts);
+  return worth_of(evidence).strength() + skin;
 }
 
 std::string objection(const Evidence& evidence) {
@@ -444,6 +421,7 @@ std::string objection(const Evidence& evidence) {
 Evidence told_by_scale(Evidence evidence, double share) {
   const double part = std::min(1.0, share / kSmallestShare);
   evidence.information *= part * part;
+  evidence.near_information *= part * part;
   return evidence;
 }
 
@@ -458,8 +436,9 @@ std::optional<Evidence> Joint::evidence_above(double limit, const Rigid& pose,
                                               const LookOptions& options) const {
   const Look look(*sides_, pose, options.most_samples, options.quick);
   const Look::Begun begun = look.begin(options.facet_b);
-  if (stays_below(most_of_shape(begun.evidence) + most_of_continuation(look, begun.evidence), limit))
-    return std::nullopt;
+  // What is inside the other body and walls that do not go on only take from the worth.
+  const double shape = std::max(0.0, worth_of(begun.evidence).strength());
+  if (stays_below(shape + most_of_continuation(look, begun.evidence), limit)) return std::nullopt;
   return look.complete(begun);
 }
 
@@ -476,20 +455,21 @@ std::optional<Evidence> Joint::agreed_evidence_above(double limit, const Rigid& 
   const Look look(*sides_, pose, 0, false);
   const Look::Begun begun = look.begin(-1);
   const double continuation = most_of_continuation(look, begun.evidence);
-  const double shape = most_of_shape(begun.evidence);
-  if (shape <= 0.0 && stays_below(continuation, limit)) return std::nullopt;
+  const Worth shape = worth_of(begun.evidence);
+  if (shape.none() && stays_below(continuation, limit)) return std::nullopt;
   const Look look_from_a(*exchanged_, inverse(pose), 0, false);
   const Look::Begun begun_from_a = look_from_a.begin(-1);
-  const double shape_from_a = most_of_shape(begun_from_a.evidence);
-  if (stays_below(std::sqrt(shape * shape_from_a) + continuation, limit)) return std::nullopt;
-  Evidence agreed = look.complete(begun);
-  const double there = strength_of_shape(agreed);
-  if (there <= 0.0 && agreed.continuation <= 0.0) return agreed;  // whatever A's samples say
+  const Worth most = agreed(shape, worth_of(begun_from_a.evidence));
+  if (stays_below(most.strength() + continuation, limit)) return std::nullopt;
+  Evidence evidence = look.complete(begun);
+  const Worth there = worth_of(evidence);
+  if (there.none() && evidence.continuation <= 0.0) return evidence;  // whatever A's samples say
   const Evidence from_a = look_from_a.complete(begun_from_a);
-  const double back = strength_of_shape(from_a);
-  if (there > 0.0) agreed.information *= std::sqrt(std::max(0.0, back) / there);
-  agreed.continuation = std::min(agreed.continuation, from_a.continuation);
-  return agreed;
+  const Worth both = agreed(there, worth_of(from_a));
+  if (there.close > 0.0) evidence.information *= both.close / there.close;
+  if (there.near > 0.0) evidence.near_information *= both.near / there.near;
+  evidence.continuation = std::min(evidence.continuation, from_a.continuation);
+  return evidence;
 }
 
 Evidence Joint::agreed_evidence(const Rigid& pose) const {

@@ -160,7 +160,10 @@ bool may_be_walls(const Evidence& evidence) {
 Evidence weigh(const Evidence& evidence, const Joint& joint, const Rigid& pose) {
   if (strength(evidence) <= 0.0) return evidence;
   Evidence told = told_by_scale(evidence, joint.share_by_scale(pose));
-  if (may_be_walls(told)) told.information *= kEven / std::max(kEven, strength(told));
+  if (may_be_walls(told)) {
+    told.near_information = 0.0;
+    told.information *= kEven / std::max(kEven, strength(told));
+  }
   return told;
 }
 

@@ -23,13 +23,14 @@ TEST(Evidence, ContactOrdersWeakPosesAndNoStrongOnes) {
   const Joint joint(pair.a, pair.b);
   const Evidence good = joint.agreed_evidence(pair.truth);
   Evidence flat = good;  // as much contact without shape or skin that goes on
-  flat.information = 0.0;
+  flat.information = flat.near_information = 0.0;
   flat.continuation = 0.0;
   EXPECT_EQ(strength(flat), 0.0);
   EXPECT_GT(rank(flat), 0.0);
   EXPECT_LT(rank(flat), rank(good));
   Evidence small = flat;
-  small.contact_area = small.shared_area = 2.0 * flat.patch_area;
+  small.contact_area = small.shared_area = small.near_contact_area = small.near_shared_area =
+      2.0 * flat.patch_area;
   small.information = 0.5;  // chance
   EXPECT_GT(strength(small), strength(flat));
   EXPECT_LT(rank(small), rank(flat));
@@ -317,6 +318,35 @@ TEST(Joint, AgreedStrengthIsTheGeometricMeanOfThatOfBothSides) {
     EXPECT_DOUBLE_EQ(agreed.continuation, std::min(there.continuation, back.continuation));
     EXPECT_DOUBLE_EQ(agreed.continuation, exchanged_agreed.continuation);
   }
+}
+
+/// Half of the planted block whose scan is off by waves of its own, as scans from photographs are.
+Fragment wavy_half(bool below, double amplitude) {
+  mesh::Mesh half = testing::half_block(below, 96);
+  for (auto& v : half.vertices) {
+    if (std::abs(v.z) == static_cast<float>(testing::kHalfZ)) continue;
+    const float phase = below ? 0.0F : 2.0F;
+    v.z += static_cast<float>(amplitude) * std::sin(0.9F * v.x + phase) * std::cos(0.7F * v.y - phase);
+  }
+  return prepare(below ? "below" : "above", half, Context{});
+}
+
+TEST(Joint, ErrorsThatNearPointsShareAreHeardALittleBeyondTheTolerance) {
+  const auto evidence_with = [](double amplitude) {
+    const Fragment below = wavy_half(true, amplitude);
+    const Fragment above = wavy_half(false, amplitude);
+    return Joint(below, above).agreed_evidence(to_origins(below, above, Rigid{}));
+  };
+  const auto within_tolerance = [](Evidence evidence) {
+    evidence.near_contact_area = 0.0;
+    return strength_of_shape(evidence);
+  };
+  const Evidence exact = evidence_with(0.0);
+  EXPECT_EQ(strength_of_shape(exact), within_tolerance(exact));
+  const Evidence off = evidence_with(1.6 * exact.tolerance);
+  EXPECT_GT(off.gap_spread, off.tolerance);
+  EXPECT_GT(strength_of_shape(off), 4.0 * within_tolerance(off));
+  EXPECT_LT(strength_of_shape(off), 0.2 * strength_of_shape(exact));
 }
 
 TEST(Joint, RoughBreakOnAPlaneSaysNothing) {

@@ -1,0 +1,77 @@
+#include "match/detail/shape.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/median.hpp"
+#include "core/rigid.hpp"
+#include "core/tukey.hpp"
+
+namespace rejoin::match::detail {
+namespace {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+constexpr double kSteady = 0.02;  // share by which the deviation may still change in the end
+constexpr double kReach = 7.0;    // robust deviations beyond which a height does not bend the quadric
+
+}  // namespace
+
+double robust_deviation(std::vector<double> values) {
+  const double middle = median(values);
+  for (double& v : values) v = std::abs(v - middle);
+  return 1.48 * median(values);
+}
+
+std::vector<double> heights_above_quadric(const std::vector<glm::dvec3>& points, const glm::dvec3& normal,
+                                          int rounds) {
+  const glm::dmat3 frame = frame_of(normal);
+  glm::dvec3 centre(0.0);
+  for (const auto& p : points) centre += p / static_cast<double>(points.size());
+  double size = 0.0;
+  for (const auto& p : points) size = std::max(size, glm::distance(p, centre));
+  std::vector<Vector6> rows;
+  std::vector<double> heights;
+  for (const auto& p : points) {
+    const glm::dvec3 q = (p - centre) * frame / size;
+    Vector6 row;
+    row << 1.0, q.x, q.y, q.x * q.x, q.x * q.y, q.y * q.y;
+    rows.push_back(row);
+    heights.push_back(q.z);
+  }
+  std::vector<double> rest = heights;
+  double reach = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < rounds; ++round) {
+    Matrix6 matrix = 1e-9 * static_cast<double>(points.size()) * Matrix6::Identity();
+    Vector6 right = Vector6::Zero();
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const double weight = tukey(rest[i], reach);
+      matrix += weight * rows[i] * rows[i].transpose();
+      right += weight * heights[i] * rows[i];
+    }
+    const Vector6 fit = matrix.ldlt().solve(right);
+    for (std::size_t i = 0; i < rows.size(); ++i) rest[i] = heights[i] - fit.dot(rows[i]);
+    const double next = kReach * std::max(1e-12, robust_deviation(rest));
+    if (std::abs(next - reach) < kSteady * next) break;
+    reach = next;
+  }
+  for (double& height : rest) height *= size;
+  return rest;
+}
+
+std::pair<glm::dvec3, glm::dvec3> middle_and_axis(const std::vector<glm::dvec3>& points) {
+  glm::dvec3 centre(0.0);
+  for (const auto& p : points) centre += p / static_cast<double>(points.size());
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const auto& p : points) {
+    const Eigen::Vector3d q(p.x - centre.x, p.y - centre.y, p.z - centre.z);
+    spread += q * q.transpose();
+  }
+  const Eigen::Vector3d axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
+  return {centre, {axis.x(), axis.y(), axis.z()}};
+}
+
+}  // namespace rejoin::match::detail

@@ -1,0 +1,21 @@
+/// What shape there is in values and in points.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <utility>
+#include <vector>
+
+namespace rejoin::match::detail {
+
+/// 1.48 times the median absolute deviation: the standard deviation of what is not outliers.  \pre not empty
+double robust_deviation(std::vector<double> values);
+
+/// Heights of points along `normal` above the quadric that fits them best; with more rounds, that fits most of them best.
+/// \param normal  unit
+std::vector<double> heights_above_quadric(const std::vector<glm::dvec3>& points, const glm::dvec3& normal,
+                                          int rounds);
+
+/// Mean of points, and the direction, unit, in which they spread most.
+std::pair<glm::dvec3, glm::dvec3> middle_and_axis(const std::vector<glm::dvec3>& points);
+
+}  // namespace rejoin::match::detail
