@@ -59,7 +59,9 @@ std::string summary(const std::vector<outline::Piece>& pieces, const outline::As
   for (std::size_t group = 0; group < sizes.size() && sizes[group] > 1; ++group) {
     const std::size_t parts = firm_parts(assembly, group);
     text += fmt::format("  object {}: {} pieces", group + 1, sizes[group]);
-    if (parts > 1)
+    if (sizes[group] == 2 && parts == 2)
+      text += fmt::format(", by a join that is not sure (its score is below {})", outline::kSureScore);
+    else if (parts > 1)
       text +=
           fmt::format(", of which {} parts hold together only by joins that are not sure (scores below {})",
                       parts, outline::kSureScore);
@@ -117,6 +119,8 @@ class OutlineAssembleCommand final : public Command {
       console.result(
           "  what lies upside down fits nowhere either; --method lcs finds it, but takes straight edges for "
           "joins\n");
+    if (!assembly.joins.empty() && method_ == OutlineMethod::Lcs)
+      console.result("  lcs takes straight edges for joins: look at every one of them\n");
     if (json_) console.result(fmt::format("wrote {}\n", *json_));
     if (out_ && !assembly.cancelled) write_pictures(set.pieces, assembly, console, context);
     return assembly.cancelled ? kInterrupted : finished_with(set, console);

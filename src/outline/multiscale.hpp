@@ -27,7 +27,7 @@ struct MultiscaleOptions {
   std::size_t per_pair = 4;  ///< candidates of a pair kept at the finest scale, doubled with each coarser one
   std::size_t fitted = 40;   ///< candidates of a pair whose pose is fitted
   std::size_t per_coarse_scale =
-      2;  ///< candidates that each scale adds at which boundaries of L_min are lost already
+      4;  ///< candidates that each scale adds at which boundaries of L_min are lost already
   std::vector<MultiscaleLevel> levels;  ///< finest first, from calibrate(); missing ones: defaults
 };
 

@@ -8,6 +8,7 @@
 
 #include "core/cyclic.hpp"
 #include "core/files.hpp"
+#include "core/png_mark.hpp"
 #include "core/smooth.hpp"
 #include "outline/assembly_pictures.hpp"
 #include "outline/signal.hpp"
@@ -206,7 +207,8 @@ std::vector<std::filesystem::path> write_outline_match_pictures(const std::files
     draw_joined(image, a, b, best, verdict);
     draw_curvatures(image, a.outline, b.outline, best);
     const std::vector<std::uint8_t> bytes = outline::assembled_png({a, b}, {{}, best.pose});
-    rejoin::write_file(folder / kJoined, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    rejoin::write_file(folder / kJoined,
+                       marked_png({reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
   }
   write_png(folder / kMatch, image);
   std::vector<std::filesystem::path> files{folder / kMatch};

@@ -22,9 +22,12 @@ TEST(OutlineMatch, FindsAPlantedJoinAndDrawsIt) {
   const std::string b = join[1];
   const std::string file = shapes / "match.json";
   const std::string pictures = shapes / "pictures";
-  const Finished found = run({"outline", "match", shapes.pieces + "/" + a, shapes.pieces + "/" + b, "--json",
-                              file, "--out", pictures});
+  const std::vector<std::string> words{
+      "outline", "match", shapes.pieces + "/" + a, shapes.pieces + "/" + b, "--json", file,
+      "--out",   pictures};
+  const Finished found = run(words);
   ASSERT_EQ(found.exit_code, 0) << found.err;
+  EXPECT_EQ(run(words).exit_code, 0) << "the first run's pictures are its own to replace";
   const json match = json::parse(read_file(file));
   EXPECT_EQ(match["verdict"], "join");
   EXPECT_EQ(match["search"]["method"], "multiscale");
