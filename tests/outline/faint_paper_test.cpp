@@ -70,6 +70,26 @@ TEST_F(FaintPaper, OfAnotherHueIsToldFromItsShadow) {
   }
 }
 
+// White paper torn across its print on a grey lid: around letters the light passes the lid's own, and the border ran around each of them.
+TEST_F(FaintPaper, LetteringThatTheBorderCutsIsPartOfThePiece) {
+  const cv::Rect paper(80, 60, 430, 470);
+  cv::Mat image(600, 600, CV_8UC3, cv::Scalar(232, 232, 232));
+  image(paper).setTo(cv::Scalar(248, 250, 250));
+  cv::Mat inside = image(paper);
+  for (int y = 30; y < 460; y += 30)
+    cv::putText(inside, "and in witness thereof we sign", {-7, y}, cv::FONT_HERSHEY_TRIPLEX, 0.9,
+                cv::Scalar(40, 30, 30), 1, cv::LINE_AA);
+  const Extraction found = extract(saved(image));
+  ASSERT_EQ(found.pieces.size(), 1U);
+  const glm::dvec2 middle(294.5, 294.5);
+  double deepest = 0.0;
+  for (const glm::dvec2& p : found.pieces[0].points) {
+    const glm::dvec2 off = glm::abs(p - middle) - glm::dvec2(215.0, 235.0);
+    deepest = std::max(deepest, std::abs(std::max(off.x, off.y)));
+  }
+  EXPECT_LT(deepest, 3.0);
+}
+
 TEST_F(FaintPaper, ManySmallPiecesWithSoftShadowsAreNoPrint) {
   cv::Mat shade(900, 900, CV_32F, cv::Scalar(0.0));
   cv::Mat cover(900, 900, CV_8U, cv::Scalar(0));

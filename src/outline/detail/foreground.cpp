@@ -49,6 +49,11 @@ constexpr float kHueBin = 0.005F;
 constexpr int kNoHue = 24;  // the bin in the middle
 constexpr int kHueBins = 2 * kNoHue + 1;
 
+/// Print on paper before a light background leaves less than this share of the light.  Between it and lighter paper a seam as wide as
+/// this, pixels, has the background's own light.
+constexpr float kInk = 0.7F;
+constexpr int kSeam = 11;
+
 /// If taking shadows off leaves less than this share of the foreground, they were none.
 constexpr double kLeastLeft = 0.5;
 
@@ -177,6 +182,25 @@ cv::Mat pieces_in_row(const cv::Mat& strip) {
   return piece;
 }
 
+/// Seams of the background's light around print that a border cuts, 255: else the border runs around each letter.
+cv::Mat seams_of_print(const Background& background, const cv::Mat& image, const cv::Mat& lit) {
+  const cv::Vec3f& brightest = background.brightest();
+  cv::Mat ink = cv::Mat::zeros(image.size(), CV_8U);
+  if (brightest[0] + brightest[1] + brightest[2] < 3.0F * kShadowsFall) return ink;
+  for_rows(image, [&](int y) {
+    for (int x = 0; x < image.cols; ++x) {
+      const cv::Vec3f most = kInk * background.colour(x, y);
+      const auto& pixel = image.at<cv::Vec3f>(y, x);
+      if (pixel[0] < most[0] && pixel[1] < most[1] && pixel[2] < most[2]) ink.at<uchar>(y, x) = 255;
+    }
+  });
+  const cv::Mat block = cv::getStructuringElement(cv::MORPH_ELLIPSE, {kSeam, kSeam});
+  cv::Mat closed;
+  cv::dilate(ink, ink, block);
+  cv::morphologyEx(lit, closed, cv::MORPH_CLOSE, block);
+  return closed & ink & ~lit;
+}
+
 }  // namespace
 
 cv::Mat distance_from(const Background& background, const cv::Mat& image) {
@@ -209,7 +233,8 @@ Foreground foreground(const Background& background, const cv::Mat& image, double
   const cv::Mat bare = distance < least;
   const cv::Mat shaded = touching(shades(background, smooth, distance, paper), bare);
   const cv::Mat all = ~bare;
-  const cv::Mat lit = all & ~shaded;
+  cv::Mat lit = all & ~shaded;
+  lit |= seams_of_print(background, smooth, lit);
   if (!paper && cv::countNonZero(lit) < kLeastLeft * cv::countNonZero(all))
     return {all, cv::Mat::zeros(all.size(), CV_8U)};
   return {lit, shaded};
