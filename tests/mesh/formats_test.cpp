@@ -290,6 +290,22 @@ TEST(Obj, TakesColoursThatAreWrittenAsBytes) {
   EXPECT_EQ(loaded.mesh.colours[2], glm::u8vec3(1, 1, 1));
 }
 
+TEST(Ply, TakesRealColoursFromNoughtToOneAndUpTo255) {
+  const TemporaryFolder folder;
+  const auto colour = [&](const char* written) {
+    return load(
+               folder.write("a.ply", fmt::format("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                                                 "property float y\nproperty float z\nproperty float red\n"
+                                                 "property float green\nproperty float blue\nelement face 1\n"
+                                                 "property list uchar int vertex_indices\nend_header\n"
+                                                 "0 0 0 {0}\n1 0 0 {0}\n0 1 0 {0}\n3 0 1 2\n",
+                                                 written)))
+        .mesh.colours.at(0);
+  };
+  EXPECT_EQ(colour("1 0.4 0"), glm::u8vec3(255, 102, 0));
+  EXPECT_EQ(colour("255 102 0"), glm::u8vec3(255, 102, 0));
+}
+
 TEST(Off, ReadsCountsOnTheFirstLineCommentsAndColours) {
   const TemporaryFolder folder;
   const auto path = folder.write("a.off",

@@ -128,7 +128,7 @@ struct Columns {
     has_colours = std::min({at[6], at[7], at[8]}) >= 0;
     if (!has_colours) return;
     const PlyType type = vertex.properties[static_cast<std::size_t>(at[6])].type;
-    if (type == PlyType::Float32 || type == PlyType::Float64) colour_scale = 255;
+    real_colours = type == PlyType::Float32 || type == PlyType::Float64;
     if (type == PlyType::Uint16) colour_scale = 255.0 / 65535.0;
   }
   bool has_position() const { return std::min({at[0], at[1], at[2]}) >= 0; }
@@ -136,6 +136,7 @@ struct Columns {
   std::array<int, 9> at{};
   bool has_normals = false;
   bool has_colours = false;
+  bool real_colours = false;
   double colour_scale = 1;
 };
 
@@ -171,6 +172,7 @@ void read_vertices(Values& values, const Place& place, Soup& soup) {
   if (!columns.has_position())
     throw InputError(*place.file, "its vertices have no x, y, z", "export the scan again");
   soup.points.reserve(place.element->count);
+  std::vector<glm::vec3> colours;  // as written, of real numbers
   const auto triple = [&columns](const std::vector<double>& row, std::size_t first) {
     const auto value = [&](std::size_t i) { return row[static_cast<std::size_t>(columns.at[first + i])]; };
     return glm::dvec3(value(0), value(1), value(2));
@@ -180,11 +182,17 @@ void read_vertices(Values& values, const Place& place, Soup& soup) {
       [&](const std::vector<double>& row) {
         soup.points.push_back(triple(row, 0));
         if (columns.has_normals) soup.normals.emplace_back(triple(row, 3));
-        if (columns.has_colours) {
+        if (columns.real_colours) {
+          colours.emplace_back(triple(row, 6));
+        } else if (columns.has_colours) {
           soup.colours.push_back(to_bytes(triple(row, 6) * columns.colour_scale));
         }
       },
       [](std::size_t, const std::vector<double>&) {});
+  float brightest = 0.0F;
+  for (const glm::vec3& c : colours) brightest = std::max({brightest, c.x, c.y, c.z});
+  const double scale = brightest > 1.5F ? 1.0 : 255.0;  // some programs write bytes
+  for (const glm::vec3& c : colours) soup.colours.push_back(to_bytes(scale * glm::dvec3(c)));
 }
 
 /// Which property lists the corners of faces or strips.
