@@ -77,8 +77,7 @@ class ShatterCommand final : public Command {
     add_number(app, "--erosion", erosion_, {0, 5}, "radius of worn edges, 0 to 5 (0.1)");
     add_number(app, "--chips", options_.chips, {0, 100}, "mean number of chips off a fragment (3)");
     add_number(app, "--noise", noise_, {0, 1}, "deviation of the scanner, 0 to 1 (0.01)");
-    add_number(app, "--correlated", correlated_, {0, 1},
-               "deviation that near points share, as of photographs, 0 to 1 (0)");
+    add_number(app, "--correlated", correlated_, {0, 1}, "deviation that near points share, 0 to 1 (0)");
     add_number(app, "--wavelength", wavelength_, {0.1, 50}, "of that deviation, 0.1 to 50 (2)");
     add_number(app, "--spacing", spacing_, {0.05, 5}, "edge length of the meshes, 0.05 to 5 (0.4)");
   }

@@ -377,7 +377,7 @@ Worth agreed(const Worth& there, const Worth& back) {
   return {agreed(there.close, back.close), agreed(there.near, back.near)};
 }
 
-/// The same for what continuation adds.
+/// At most what continuation adds once a look is complete.
 double most_of_continuation(const Look& look, const Evidence& begun) {
   return look.looks_across_border() ? kMostContinuation * std::pow(touching_share(begun), kOpenCosts) : 0.0;
 }

@@ -24,11 +24,11 @@ struct Evidence {
   double contact_area = 0;  ///< B's broken surface that faces A's within the tolerance
   /// B's broken surface that lies over A's, touching or not (within kOver tolerances).
   double shared_area = 0;
-  double near_contact_area = 0;  ///< both within kNear times the distances
-  double near_shared_area = 0;
-  double unbacked_area = 0;  ///< of the contact, what has nothing behind it on either side
-  double patch_area = 0;     ///< of a patch of surface whose relief is independent of the next one's
-  int core_samples = 0;      ///< of the shared surface, those that are not next to another facet
+  double near_contact_area = 0;  ///< contact_area within kNear times its distance
+  double near_shared_area = 0;   ///< shared_area within kNear times its distance
+  double unbacked_area = 0;      ///< of the contact, what has nothing behind it on either side
+  double patch_area = 0;         ///< of a patch of surface whose relief is independent of the next one's
+  int core_samples = 0;          ///< of the shared surface, those that are not next to another facet
   double gap_median = std::numeric_limits<double>::infinity();  ///< median_gap() over the shared area
   double gap_middle =
       0;  ///< median of the core's gaps, mesh units; below 0 where the surfaces are in each other
@@ -37,7 +37,7 @@ struct Evidence {
   double information =
       0;  ///< how much shape agrees: n/2 log((relief^2 + noise^2) / (gap_spread^2 + noise^2)), nats,
           ///< n = independent patches of the shared area.  Flat on flat gives none.
-  double near_information = 0;  ///< the same, of what is counted within kNear times the distances
+  double near_information = 0;  ///< the part of it that both ways agree on within kNear times the distances
   double penetration = 0;  ///< mean depth of what lies inside the other body, mesh units; 0 if nothing does
   double penetration_area = 0;  ///< surface of B that lies clearly inside A's body
   /// Thin pieces: share of the walls at the seam that go on on the other side; 1 for solid ones or without walls.

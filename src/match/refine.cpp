@@ -161,8 +161,9 @@ Evidence weigh(const Evidence& evidence, const Joint& joint, const Rigid& pose) 
   if (strength(evidence) <= 0.0) return evidence;
   Evidence told = told_by_scale(evidence, joint.share_by_scale(pose));
   if (may_be_walls(told)) {
-    told.near_information = 0.0;
-    told.information *= kEven / std::max(kEven, strength(told));
+    const double part = kEven / std::max(kEven, strength(told));
+    told.information *= part;
+    told.near_information *= part;
   }
   return told;
 }

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "mesh/detail/soup.hpp"
+#include "picture/image_file.hpp"
 
 namespace rejoin::mesh {
 namespace {
@@ -30,9 +31,12 @@ constexpr std::array kFormats{
     Format{".pts", "pts", detail::read_xyz},
 };
 
-/// Of what `rejoin outline` reads.
-constexpr std::array<std::string_view, 8> kFlat{".png",  ".jpg", ".jpeg", ".tif",
-                                                ".tiff", ".svg", ".csv",  ".geojson"};
+/// Whether `rejoin outline` reads such files.
+bool is_flat(const std::filesystem::path& path) {
+  const std::string extension = extension_of(path);
+  return picture::has_picture_name(path) || extension == ".svg" || extension == ".csv" ||
+         extension == ".geojson";
+}
 
 const Format* find_format(const std::string& extension) {
   const auto* found = std::find_if(kFormats.begin(), kFormats.end(),
@@ -43,7 +47,7 @@ const Format* find_format(const std::string& extension) {
 const Format& format_of(const std::filesystem::path& path) {
   const std::string extension = extension_of(path);
   if (const Format* format = find_format(extension)) return *format;
-  if (std::ranges::find(kFlat, extension) != kFlat.end())
+  if (is_flat(path))
     throw InputError(path.string(), "is a picture or an outline",
                      "scans of solid pieces are meshes or clouds; flat pieces are matched by rejoin outline");
   throw InputError(path.string(),

@@ -335,7 +335,10 @@ TEST(Joint, ErrorsThatNearPointsShareAreHeardALittleBeyondTheTolerance) {
   const auto evidence_with = [](double amplitude) {
     const Fragment below = wavy_half(true, amplitude);
     const Fragment above = wavy_half(false, amplitude);
-    return Joint(below, above).agreed_evidence(to_origins(below, above, Rigid{}));
+    const Evidence agreed = Joint(below, above).agreed_evidence(to_origins(below, above, Rigid{}));
+    const Evidence back = Joint(above, below).agreed_evidence(to_origins(above, below, Rigid{}));
+    EXPECT_NEAR(strength_of_shape(back), strength_of_shape(agreed), 1e-9 * strength_of_shape(agreed));
+    return agreed;
   };
   const auto within_tolerance = [](Evidence evidence) {
     evidence.near_contact_area = 0.0;

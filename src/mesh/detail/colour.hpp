@@ -17,6 +17,12 @@ inline glm::u8vec3 to_bytes(const glm::dvec3& value) {
   return bytes;
 }
 
+/// What real numbers are multiplied by to make bytes: 255, or 1 where some of them are no shares, as some programs write bytes.
+/// \param brightest  the largest of all components
+inline double scale_of_real_colours(double brightest) {
+  return brightest > 1.5 ? 1.0 : 255.0;
+}
+
 inline glm::dvec3 to_linear(const glm::u8vec3& srgb) {
   glm::dvec3 linear;
   for (int k = 0; k < 3; ++k) {

@@ -15,7 +15,7 @@ inline constexpr double kNormalRadius =
     2.0;  ///< samples' spacings over which their normals are averaged: about 12 neighbours
 
 /// Of every point the points closer than the radius, itself among them.
-/// \param most  where there are more, as in dense parts of uneven scans, about so many of them, evenly; 0: all
+/// \param most  where there are more, as in dense parts of uneven scans, up to so many of them, evenly, and perhaps not itself; 0: all
 Lists neighbours_within(std::span<const glm::vec3> points, double radius, std::size_t most = 0);
 
 /// Unit means over the neighbours that look about the same way, as the far side of a thin wall does not.

@@ -55,7 +55,7 @@ class ObjReader {
     doubt_end();
     assign_normals();
     if (coloured_ == soup_.points.size()) {
-      const double scale = brightest_ > 1.5 ? 1.0 : 255.0;  // some programs write bytes
+      const double scale = scale_of_real_colours(brightest_);
       soup_.colours.reserve(colours_.size());
       for (const glm::vec3& colour : colours_) soup_.colours.push_back(to_bytes(scale * glm::dvec3(colour)));
     } else {

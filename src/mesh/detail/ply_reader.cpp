@@ -191,7 +191,7 @@ void read_vertices(Values& values, const Place& place, Soup& soup) {
       [](std::size_t, const std::vector<double>&) {});
   float brightest = 0.0F;
   for (const glm::vec3& c : colours) brightest = std::max({brightest, c.x, c.y, c.z});
-  const double scale = brightest > 1.5F ? 1.0 : 255.0;  // some programs write bytes
+  const double scale = scale_of_real_colours(brightest);
   for (const glm::vec3& c : colours) soup.colours.push_back(to_bytes(scale * glm::dvec3(c)));
 }
 

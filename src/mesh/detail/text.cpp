@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdlib>
 #include <limits>
@@ -20,10 +22,16 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
-/// Of what follows "#" at the start or after a blank: names may have one in them, as "Material_#1".
+/// Lines of OBJ and MTL files that hold a name, which may have "#" in it, as "Material_#1".
+constexpr std::array<std::string_view, 4> kNaming{"usemtl", "newmtl", "mtllib", "map_Kd"};
+
+/// Where "#" begins a comment: anywhere, but in lines with names only behind a blank.
 std::size_t start_of_comment(std::string_view line) {
+  const bool named = std::ranges::any_of(kNaming, [&](std::string_view word) {
+    return line.substr(std::min(line.find_first_not_of(kBlank), line.size())).starts_with(word);
+  });
   std::size_t place = line.find('#');
-  while (place != std::string_view::npos && place > 0 &&
+  while (named && place != std::string_view::npos && place > 0 &&
          kBlank.find(line[place - 1]) == std::string_view::npos)
     place = line.find('#', place + 1);
   return place;

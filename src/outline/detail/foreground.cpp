@@ -49,10 +49,11 @@ constexpr float kHueBin = 0.005F;
 constexpr int kNoHue = 24;  // the bin in the middle
 constexpr int kHueBins = 2 * kNoHue + 1;
 
-/// Print on paper before a light background leaves less than this share of the light.  Between it and lighter paper a seam as wide as
-/// this, pixels, has the background's own light.
+/// Print on paper before a light background leaves less than this share of the light.  Between it and lighter paper a seam has the
+/// background's own light: what is this near to both, pixels, where no more than kMouth pixels are open.
 constexpr float kInk = 0.7F;
-constexpr int kSeam = 11;
+constexpr int kSeam = 4;
+constexpr int kMouth = 11;
 
 /// If taking shadows off leaves less than this share of the foreground, they were none.
 constexpr double kLeastLeft = 0.5;
@@ -125,13 +126,18 @@ bool is_nearer_to(const cv::Vec3f& hue, const Shade& shade) {
   return shade.hue.dot(hue) > 0.5F * hue.dot(hue);
 }
 
+/// Whether shadows on it matter.
+bool shows_shadows(const Background& background) {
+  const cv::Vec3f& brightest = background.brightest();
+  return brightest[0] + brightest[1] + brightest[2] >= 3.0F * kShadowsFall;
+}
+
 /// Darker places of the background's own hue where nothing ends.
 /// \param paper  hue_of_paper
 cv::Mat shades(const Background& background, const cv::Mat& image, const cv::Mat& distance,
                const std::optional<cv::Vec3f>& paper) {
   cv::Mat result = cv::Mat::zeros(image.size(), CV_8U);
-  const cv::Vec3f& brightest = background.brightest();
-  if (brightest[0] + brightest[1] + brightest[2] < 3.0F * kShadowsFall) return result;
+  if (!shows_shadows(background)) return result;
   for_rows(image, [&](int y) {
     if (y == 0 || y + 1 == image.rows) return;
     for (int x = 1; x + 1 < image.cols; ++x) {
@@ -182,23 +188,32 @@ cv::Mat pieces_in_row(const cv::Mat& strip) {
   return piece;
 }
 
-/// Seams of the background's light around print that a border cuts, 255: else the border runs around each letter.
+cv::Mat grown(const cv::Mat& mask, int radius) {
+  cv::Mat result;
+  cv::dilate(mask, result, cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1}));
+  return result;
+}
+
+/// Seams of the background's light between print and lighter paper, 255: where a border cuts print, it would run around each letter.
 cv::Mat seams_of_print(const Background& background, const cv::Mat& image, const cv::Mat& lit) {
-  const cv::Vec3f& brightest = background.brightest();
   cv::Mat ink = cv::Mat::zeros(image.size(), CV_8U);
-  if (brightest[0] + brightest[1] + brightest[2] < 3.0F * kShadowsFall) return ink;
+  if (!shows_shadows(background)) return ink;
+  cv::Mat paper = ink.clone();
   for_rows(image, [&](int y) {
     for (int x = 0; x < image.cols; ++x) {
-      const cv::Vec3f most = kInk * background.colour(x, y);
+      const cv::Vec3f behind = background.colour(x, y);
       const auto& pixel = image.at<cv::Vec3f>(y, x);
-      if (pixel[0] < most[0] && pixel[1] < most[1] && pixel[2] < most[2]) ink.at<uchar>(y, x) = 255;
+      const auto is_below = [&](float share) {
+        return pixel[0] < share * behind[0] && pixel[1] < share * behind[1] && pixel[2] < share * behind[2];
+      };
+      if (is_below(kInk)) ink.at<uchar>(y, x) = 255;
+      if (lit.at<uchar>(y, x) != 0 && cv::sum(pixel - behind)[0] > 0.0) paper.at<uchar>(y, x) = 255;
     }
   });
-  const cv::Mat block = cv::getStructuringElement(cv::MORPH_ELLIPSE, {kSeam, kSeam});
   cv::Mat closed;
-  cv::dilate(ink, ink, block);
-  cv::morphologyEx(lit, closed, cv::MORPH_CLOSE, block);
-  return closed & ink & ~lit;
+  cv::morphologyEx(lit, closed, cv::MORPH_CLOSE,
+                   cv::getStructuringElement(cv::MORPH_ELLIPSE, {kMouth, kMouth}));
+  return closed & grown(ink, kSeam) & grown(paper, kSeam) & ~lit;
 }
 
 }  // namespace
@@ -237,7 +252,7 @@ Foreground foreground(const Background& background, const cv::Mat& image, double
   lit |= seams_of_print(background, smooth, lit);
   if (!paper && cv::countNonZero(lit) < kLeastLeft * cv::countNonZero(all))
     return {all, cv::Mat::zeros(all.size(), CV_8U)};
-  return {lit, shaded};
+  return {lit, shaded & ~lit};
 }
 
 void clear_frame(const cv::Mat& distance, cv::Mat& mask) {
