@@ -306,6 +306,12 @@ TEST(Ply, TakesRealColoursFromNoughtToOneAndUpTo255) {
   EXPECT_EQ(colour("255 102 0"), glm::u8vec3(255, 102, 0));
 }
 
+TEST(Off, CommentsMayFollowNumbersWithoutABlank) {
+  const TemporaryFolder folder;
+  const auto path = folder.write("a.off", "OFF\n3 1 0# counts\n0 0 0#a\n1 0 0\n0 1 0\n3 0 1 2# face\n");
+  EXPECT_EQ(load(path).mesh.faces.size(), 1U);
+}
+
 TEST(Off, ReadsCountsOnTheFirstLineCommentsAndColours) {
   const TemporaryFolder folder;
   const auto path = folder.write("a.off",

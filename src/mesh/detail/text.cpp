@@ -27,10 +27,10 @@ constexpr std::array<std::string_view, 4> kNaming{"usemtl", "newmtl", "mtllib", 
 
 /// Where "#" begins a comment: anywhere, but in lines with names only behind a blank.
 std::size_t start_of_comment(std::string_view line) {
-  const bool named = std::ranges::any_of(kNaming, [&](std::string_view word) {
-    return line.substr(std::min(line.find_first_not_of(kBlank), line.size())).starts_with(word);
-  });
   std::size_t place = line.find('#');
+  if (place == std::string_view::npos) return place;
+  const bool named =
+      std::ranges::any_of(kNaming, [text = trimmed(line)](auto word) { return text.starts_with(word); });
   while (named && place != std::string_view::npos && place > 0 &&
          kBlank.find(line[place - 1]) == std::string_view::npos)
     place = line.find('#', place + 1);

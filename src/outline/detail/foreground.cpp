@@ -207,7 +207,9 @@ cv::Mat seams_of_print(const Background& background, const cv::Mat& image, const
         return pixel[0] < share * behind[0] && pixel[1] < share * behind[1] && pixel[2] < share * behind[2];
       };
       if (is_below(kInk)) ink.at<uchar>(y, x) = 255;
-      if (lit.at<uchar>(y, x) != 0 && cv::sum(pixel - behind)[0] > 0.0) paper.at<uchar>(y, x) = 255;
+      const cv::Vec3f lighter = pixel - behind;
+      if (lit.at<uchar>(y, x) != 0 && lighter[0] + lighter[1] + lighter[2] > 0.0F)
+        paper.at<uchar>(y, x) = 255;
     }
   });
   cv::Mat closed;
