@@ -36,6 +36,47 @@ std::size_t firm_parts(const outline::Assembly& assembly, std::size_t group) {
   return distinct.size();
 }
 
+/// Joins that a person has to decide: a border that fits other pieces, too.
+std::string contested(const std::vector<outline::Piece>& pieces, const outline::Assembly& assembly) {
+  constexpr std::size_t kMost = 8;
+  std::string text;
+  std::size_t count = 0;
+  for (const outline::AssemblyJoin& join : assembly.joins) {
+    if (join.rivals.empty()) continue;
+    const outline::AssemblyRival& best = join.rivals.front();
+    if (join.score >= outline::kSureScore && best.score < outline::kSureScore) continue;
+    if (++count > kMost) continue;
+    const bool same = best.piece == join.a || best.piece == join.b;
+    text += fmt::format("  {} + {} (score {:.2f}): ", pieces[join.a].name, pieces[join.b].name, join.score);
+    text += same ? fmt::format("they fit there in another way, too ({:.2f})\n", best.score)
+                 : fmt::format("the same border of {} fits {}, too ({:.2f})\n", pieces[best.at].name,
+                               pieces[best.piece].name, best.score);
+  }
+  if (count > kMost)
+    text += fmt::format("  and {} whose border fits others, too (\"rivals\" in the JSON)\n",
+                        counted(count - kMost, "join"));
+  return text;
+}
+
+/// Why a piece has no place.
+std::string without_place(const std::vector<outline::Piece>& pieces, const outline::Assembly& assembly,
+                          std::size_t piece) {
+  const std::string& name = pieces[piece].name;
+  const auto repeat = std::ranges::find(assembly.repeats, piece, &outline::AssemblyRepeat::piece);
+  if (repeat != assembly.repeats.end())
+    return fmt::format(
+        "  fits nowhere: {} (has the outline of {}: another scan of it, or cut to one shape)\n", name,
+        pieces[repeat->of].name);
+  for (const outline::AssemblyJoin& join : assembly.joins) {
+    const auto rival = std::ranges::find(join.rivals, piece, &outline::AssemblyRival::piece);
+    if (rival != join.rivals.end() && rival->score >= outline::kSureScore)
+      return fmt::format("  its place is taken: {} (fits {}, {:.2f}, but {} lies there)\n", name,
+                         pieces[rival->at].name, rival->score,
+                         pieces[rival->at == join.a ? join.b : join.a].name);
+  }
+  return fmt::format("  fits nowhere: {}\n", name);
+}
+
 std::string summary(const std::vector<outline::Piece>& pieces, const outline::Assembly& assembly) {
   std::vector<std::size_t> sizes;
   for (const outline::Placement& placement : assembly.placements) {
@@ -44,12 +85,6 @@ std::string summary(const std::vector<outline::Piece>& pieces, const outline::As
   }
   const auto proposed = std::count_if(assembly.joins.begin(), assembly.joins.end(),
                                       [](const outline::AssemblyJoin& join) { return join.proposed; });
-  const auto repeat_of = [&](std::size_t piece) -> std::string {
-    const auto repeat = std::ranges::find(assembly.repeats, piece, &outline::AssemblyRepeat::piece);
-    if (repeat == assembly.repeats.end()) return "";
-    return fmt::format(" (has the outline of {}: another scan of it, or cut to one shape)",
-                       pieces[repeat->of].name);
-  };
   std::string text = fmt::format("{} of {} pieces placed; {}",
                                  pieces.size() - assembly.unplaced.size() - assembly.untried.size(),
                                  pieces.size(), counted(assembly.joins.size(), "join"));
@@ -67,8 +102,8 @@ std::string summary(const std::vector<outline::Piece>& pieces, const outline::As
                       parts, outline::kSureScore);
     text += "\n";
   }
-  for (const std::size_t piece : assembly.unplaced)
-    text += fmt::format("  fits nowhere: {}{}\n", pieces[piece].name, repeat_of(piece));
+  text += contested(pieces, assembly);
+  for (const std::size_t piece : assembly.unplaced) text += without_place(pieces, assembly, piece);
   for (const std::size_t piece : assembly.untried)
     text += fmt::format("  not tried with all others: {}\n", pieces[piece].name);
   return text;

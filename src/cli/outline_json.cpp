@@ -80,12 +80,18 @@ std::string assembly_json(const outline::PieceSet& set, const outline::Assembly&
         {"pose", to_json(placement.pose)}, {"group", placement.group}, {"confidence", placement.confidence}};
   }
   ordered_json joins = ordered_json::array();
-  for (const outline::AssemblyJoin& join : assembly.joins)
+  for (const outline::AssemblyJoin& join : assembly.joins) {
+    ordered_json rivals = ordered_json::array();
+    for (const outline::AssemblyRival& rival : join.rivals)
+      rivals.push_back(
+          {{"name", pieces[rival.piece].name}, {"at", pieces[rival.at].name}, {"score", rival.score}});
     joins.push_back({{"a", pieces[join.a].name},
                      {"b", pieces[join.b].name},
                      {"score", join.score},
                      {"contact", join.contact},
-                     {"proposed", join.proposed}});
+                     {"proposed", join.proposed},
+                     {"rivals", rivals}});
+  }
   ordered_json touches = ordered_json::array();
   for (const outline::AssemblyJoin& touch : assembly.touches)
     touches.push_back({{"a", pieces[touch.a].name}, {"b", pieces[touch.b].name}, {"contact", touch.contact}});

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <set>
 #include <string_view>
 #include <tuple>
@@ -12,18 +11,18 @@
 #include "core/parallel.hpp"
 #include "outline/congruence.hpp"
 #include "outline/detail/links.hpp"
+#include "outline/detail/rivals.hpp"
 #include "outline/layout.hpp"
 #include "outline/shared_border.hpp"
 
 namespace rejoin::outline {
 namespace {
 
+using detail::kSameShift;
+using detail::kSameTurn;
 using detail::Link;
 using detail::LinkedPieces;
 
-// Motions of a group that differ by less are one: radians, and share of the piece's size.
-constexpr double kSameTurn = 0.05;
-constexpr double kSameShift = 0.04;
 // What holds a part of a group to the rest, nats.
 constexpr double kLeastJoin = 2.0;
 // Of the contacts' information, beside the candidates' evidence, which knows most of it.
@@ -234,19 +233,12 @@ class Assembler {
   std::map<std::pair<std::size_t, std::size_t>, std::vector<Bundle>> bundles_;  // between groups as they are
 };
 
-/// The best score that the search for pairs gave a join at about the pose in which the pieces lie now; none if it proposed
-/// no such join.
-std::optional<double> proposed_score(const LinkedPieces& pieces, const SharedBorder& border,
-                                     const Layout& layout) {
-  const Silhouette& shape = pieces.shapes[border.b];
-  const glm::dvec2 centre = 0.5 * (shape.low + shape.high);
-  const Planar placed = inverse(layout.pose(border.a)) * layout.pose(border.b);
-  std::optional<double> best;
+/// The best link of a pair at about the pose in which the pieces lie now; null if the search for pairs proposed no such join.
+const Link* proposed_link(const LinkedPieces& pieces, const SharedBorder& border, const Layout& layout) {
+  const Link* best = nullptr;
   for (const Link& link : pieces.links) {
-    if (link.a != border.a || link.b != border.b || angle_between(link.pose, placed) >= kSameTurn) continue;
-    if (glm::distance(link.pose(centre), placed(centre)) >= kSameShift * glm::distance(shape.low, shape.high))
-      continue;
-    best = std::max(best.value_or(0.0), link.score);
+    if (link.a != border.a || link.b != border.b || !detail::lies_so(link, pieces, layout)) continue;
+    if (best == nullptr || link.score > best->score) best = &link;
   }
   return best;
 }
@@ -290,6 +282,16 @@ class Description {
     }
   }
 
+  AssemblyJoin described(const SharedBorder& border) const {
+    AssemblyJoin join{border.a, border.b, 0.0, border.length, false, {}};
+    if (const Link* link = proposed_link(linked_, border, layout_)) {
+      join.proposed = true;
+      join.rivals = detail::rivals_of(*link, linked_, layout_);
+      join.score = detail::contested_score(link->score, join.rivals);
+    }
+    return join;
+  }
+
   /// \return false, and nothing is added: the group's pieces share no more than corners
   bool add_joins(std::size_t group) {
     std::map<std::pair<std::size_t, std::size_t>, double> contacts;
@@ -304,8 +306,7 @@ class Description {
     };
     if (std::ranges::all_of(borders, is_touch)) return false;
     for (const SharedBorder& border : borders) {
-      const std::optional<double> score = proposed_score(linked_, border, layout_);
-      const AssemblyJoin join{border.a, border.b, score.value_or(0.0), border.length, score.has_value()};
+      const AssemblyJoin join = described(border);
       for (const std::size_t piece : {border.a, border.b}) {
         double& confidence = result_.placements[piece].confidence;
         confidence = 1.0 - (1.0 - confidence) * (1.0 - join.score);

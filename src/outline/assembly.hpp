@@ -27,15 +27,23 @@ struct Placement {
   double confidence = 0.0;  ///< 0..1, that one of its joins is true, by their scores; 0: placed nowhere
 };
 
+/// A piece that fits the border along which two others are joined.
+struct AssemblyRival {
+  std::size_t piece = 0;
+  std::size_t at = 0;  ///< one of the two, or, if they fit each other in two ways, each in turn
+  double score = 0.0;  ///< 0..1, of piece and `at` by the search for pairs
+};
+
 /// Two placed pieces that share border.
 struct AssemblyJoin {
   std::size_t a = 0;
   std::size_t b = 0;
   double score =
-      0.0;  ///< 0..1, what the search for pairs gave the join that lies here; 0 if it proposed none
+      0.0;  ///< 0..1, what the search for pairs gave the join that lies here, less for rivals; 0 if it proposed none
   double contact = 0.0;  ///< length of the shared border, file units; see shared_borders()
   bool proposed =
       false;  ///< by the search for pairs; if not, the pieces lie side by side because of other joins
+  std::vector<AssemblyRival> rivals;  ///< best first
 };
 
 /// A piece without a place whose outline another piece has too, see congruent(): mostly a second scan of it.

@@ -42,7 +42,7 @@ class AssemblyPictures : public testing::Test {
 Assembly side_by_side() {
   Assembly assembly;
   assembly.placements = {{Planar{}, 0, 0.9}, {Planar{M_PI, {99.0, 49.0}, false}, 0, 0.9}};
-  assembly.joins = {{0, 1, 0.9, 30.0}};
+  assembly.joins = {{0, 1, 0.9, 30.0, false, {}}};
   return assembly;
 }
 

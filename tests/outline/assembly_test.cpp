@@ -140,6 +140,34 @@ TEST(Assembly, GivesAJoinTheScoreOfItsPairAndAPieceTheChanceThatOneIsTrue) {
   for (const Placement& placed : assembly.placements) EXPECT_NEAR(placed.confidence, 0.8, 1e-12);
 }
 
+// As of two sheets torn together.
+TEST(Assembly, OfTwoPiecesThatFitOneBorderNeitherIsSure) {
+  planted::Board board = planted::broken_board(2, 1, 0.05, 43);
+  Piece twin = board.pieces[1];
+  Random random(7);
+  for (glm::dvec2& point : twin.outline.points) {  // the same break, but a shorter piece
+    const glm::dvec2 p = board.poses[1](point);
+    point = p.x < 150.0 ? p : glm::dvec2(150.0 + 0.6 * (p.x - 150.0), p.y);
+  }
+  board.pieces.push_back(planted::moved(twin, Planar{1.0, {30.0, 500.0}, false}, 0.05, random));
+  const Assembly assembly = assembled(board.pieces);
+  ASSERT_EQ(assembly.joins.size(), 1U);
+  const AssemblyJoin& join = assembly.joins[0];
+  EXPECT_EQ(join.a, 0U);
+  ASSERT_EQ(join.rivals.size(), 1U);
+  EXPECT_EQ(join.rivals[0].at, 0U);
+  EXPECT_EQ(join.rivals[0].piece, 3U - join.b);
+  EXPECT_GT(join.rivals[0].score, kSureScore);
+  EXPECT_LT(join.score, kSureScore);
+  EXPECT_EQ(assembly.unplaced, std::vector<std::size_t>{3U - join.b});
+
+  board.pieces.pop_back();
+  const Assembly alone = assembled(board.pieces);
+  ASSERT_EQ(alone.joins.size(), 1U);
+  EXPECT_TRUE(alone.joins[0].rivals.empty());
+  EXPECT_GT(alone.joins[0].score, kSureScore);
+}
+
 /// A strip cut with scissors, as a scanner sees it.
 Piece strip(double length, double angle_rad) {
   const glm::dvec2 along(std::cos(angle_rad), std::sin(angle_rad));

@@ -1,6 +1,7 @@
 #include "outline/detail/links.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <utility>
@@ -32,6 +33,26 @@ bool fills_hole(const JoinCandidate& candidate, const Silhouette& a, const Silho
   return contact.length >= kLeastTouching * border.step * static_cast<double>(border.end);
 }
 
+/// Where on A and on B a candidate's pieces meet.
+std::pair<Stretch, Stretch> stretches(const JoinCandidate& candidate, double perimeter_a,
+                                      double perimeter_b) {
+  const auto& [begin_a, begin_b, length, hole_a, hole_b] = candidate.boundary;
+  if (hole_a > 0 || hole_b > 0) return {};
+  const auto share = [&](double begin, double perimeter) {
+    const double from = begin / perimeter;
+    return Stretch{from - std::floor(from), length / perimeter};
+  };
+  return {share(begin_a, perimeter_a),
+          share(candidate.pose.flipped ? begin_b : begin_b - length, perimeter_b)};
+}
+
+std::vector<double> perimeters(const std::vector<Piece>& pieces) {
+  std::vector<double> all;
+  all.reserve(pieces.size());
+  for (const Piece& piece : pieces) all.push_back(perimeter(piece.outline.points));
+  return all;
+}
+
 std::vector<Silhouette> silhouettes(const std::vector<Piece>& pieces, double step) {
   std::vector<std::unique_ptr<Silhouette>> made(pieces.size());
   parallel_for(pieces.size(), 1, [&](std::size_t first, std::size_t last) {
@@ -46,7 +67,8 @@ std::vector<Silhouette> silhouettes(const std::vector<Piece>& pieces, double ste
 
 /// The candidates measured at one scale; those that overlap or say nothing are left out.
 std::vector<Link> links_at(const std::vector<Silhouette>& shapes, const std::vector<PairResult>& pairs,
-                           double tolerance, const AssemblyOptions& options) {
+                           const std::vector<double>& perimeters, double tolerance,
+                           const AssemblyOptions& options) {
   std::vector<std::pair<std::size_t, std::size_t>> names;
   names.reserve(pairs.size());
   for (std::size_t a = 0; a < shapes.size(); ++a)
@@ -62,7 +84,8 @@ std::vector<Link> links_at(const std::vector<Silhouette>& shapes, const std::vec
         if (score < kLeastScore) continue;
         if (contact.intrusion > options.most_intrusion * contact.length) continue;
         if (!fills_hole(pairs[i].candidates[k], shapes[a], shapes[b], contact)) continue;
-        found[i].push_back({a, b, pose, contact.information, contact.length, score});
+        const auto [along_a, along_b] = stretches(pairs[i].candidates[k], perimeters[a], perimeters[b]);
+        found[i].push_back({a, b, pose, contact.information, contact.length, score, along_a, along_b});
       }
     }
   });
@@ -101,11 +124,13 @@ double fitting_step(const std::vector<Piece>& pieces, const std::vector<PairResu
                     const AssemblyOptions& options) {
   const double length = median_perimeter(pieces);
   const std::vector<PairResult> best = best_of(pairs, 2 * pieces.size());
+  const std::vector<double> lengths = perimeters(pieces);
   double most = -1.0;
   double step = length;
   for (const double samples : options.samples) {
     const double trial = length / samples;
-    const std::vector<Link> links = links_at(silhouettes(pieces, trial), best, kTolerance * trial, options);
+    const std::vector<Link> links =
+        links_at(silhouettes(pieces, trial), best, lengths, kTolerance * trial, options);
     const double information = total_information(links, pieces.size());
     if (information <= most) continue;
     most = information;
@@ -127,8 +152,17 @@ LinkedPieces link_pieces(const std::vector<Piece>& pieces, const std::vector<Pai
   result.step = fitting_step(pieces, pairs, options);
   result.tolerance = kTolerance * result.step;
   result.shapes = silhouettes(pieces, result.step);
-  result.links = links_at(result.shapes, pairs, result.tolerance, options);
+  result.links = links_at(result.shapes, pairs, perimeters(pieces), result.tolerance, options);
   return result;
+}
+
+bool lies_so(const Link& link, const LinkedPieces& pieces, const Layout& placed) {
+  if (placed.group(link.a) != placed.group(link.b)) return false;
+  const Planar there = inverse(placed.pose(link.a)) * placed.pose(link.b);
+  if (angle_between(link.pose, there) >= kSameTurn) return false;
+  const Silhouette& shape = pieces.shapes[link.b];
+  const glm::dvec2 centre = 0.5 * (shape.low + shape.high);
+  return glm::distance(link.pose(centre), there(centre)) < kSameShift * glm::distance(shape.low, shape.high);
 }
 
 std::vector<std::vector<double>> similarity(const LinkedPieces& pieces) {

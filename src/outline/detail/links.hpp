@@ -6,8 +6,19 @@
 
 #include "outline/assembly.hpp"
 #include "outline/contact.hpp"
+#include "outline/layout.hpp"
 
 namespace rejoin::outline::detail {
+
+// Motions that differ by less are one: radians, and share of the moved piece's size.
+inline constexpr double kSameTurn = 0.05;
+inline constexpr double kSameShift = 0.04;
+
+/// A part of a piece's outer border, shares of it.
+struct Stretch {
+  double begin = 0.0;   ///< 0 <= begin < 1
+  double length = 0.0;  ///< 0: unknown, or along a hole
+};
 
 /// A candidate of a pair that says something.
 struct Link {
@@ -17,6 +28,8 @@ struct Link {
   double information;  ///< of the contact, nats
   double length;       ///< of the contact, file units
   double score;        ///< of the candidate, by the search for pairs
+  Stretch along_a;     ///< where the two meet
+  Stretch along_b;
 };
 
 /// How many times likelier a join is by a candidate of this score than by one that says nothing, natural logarithm; >= 0.  It adds up
@@ -37,6 +50,9 @@ struct LinkedPieces {
 /// \param pairs   results for (0, 1), (0, 2) .. (0, n - 1), (1, 2) ..
 LinkedPieces link_pieces(const std::vector<Piece>& pieces, const std::vector<PairResult>& pairs,
                          const AssemblyOptions& options);
+
+/// Whether a link's pieces lie about as it says.
+bool lies_so(const Link& link, const LinkedPieces& pieces, const Layout& placed);
 
 /// Length of the most telling link of each pair; 0 if there is none.
 std::vector<std::vector<double>> similarity(const LinkedPieces& pieces);

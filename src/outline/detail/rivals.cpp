@@ -1,0 +1,69 @@
+#include "outline/detail/rivals.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "outline/detail/odds.hpp"
+
+namespace rejoin::outline::detail {
+namespace {
+
+// Of the longer of two stretches: that much in common makes them one border.
+constexpr double kSameBorder = 0.5;
+// A rival of a lower score is none.
+constexpr double kLikely = 0.3;
+constexpr double kTempered = 1.0 / 3.0;
+
+/// Length that two stretches of one closed border share, shares of it.
+double in_common(const Stretch& p, const Stretch& q) {
+  double sum = 0.0;
+  for (const double round : {-1.0, 0.0, 1.0}) {
+    const double begin = std::max(p.begin, q.begin + round);
+    const double end = std::min(p.begin + p.length, q.begin + round + q.length);
+    sum += std::max(0.0, end - begin);
+  }
+  return sum;
+}
+
+bool same_border(const Stretch& p, const Stretch& q) {
+  return in_common(p, q) > kSameBorder * std::max(p.length, q.length);
+}
+
+/// The stretch of a link on one of its pieces.
+const Stretch& stretch_on(const Link& link, std::size_t piece) {
+  return link.a == piece ? link.along_a : link.along_b;
+}
+
+}  // namespace
+
+std::vector<AssemblyRival> rivals_of(const Link& link, const LinkedPieces& pieces, const Layout& placed) {
+  std::map<std::pair<std::size_t, std::size_t>, double> best;
+  for (const Link& other : pieces.links) {
+    if (other.score < kLikely || lies_so(other, pieces, placed)) continue;
+    for (const std::size_t at : {link.a, link.b}) {
+      if (other.a != at && other.b != at) continue;
+      if (!same_border(stretch_on(link, at), stretch_on(other, at))) continue;
+      double& score = best[{other.a == at ? other.b : other.a, at}];
+      score = std::max(score, other.score);
+      if (other.a == link.a && other.b == link.b) break;  // told once
+    }
+  }
+  std::vector<AssemblyRival> rivals;
+  for (const auto& [names, score] : best) rivals.push_back({names.first, names.second, score});
+  std::ranges::stable_sort(rivals, std::ranges::greater(), &AssemblyRival::score);
+  return rivals;
+}
+
+double contested_score(double score, const std::vector<AssemblyRival>& rivals) {
+  constexpr double kLeast = 1e-12;
+  double odds = 0.0;
+  for (const AssemblyRival& rival : rivals) {
+    odds += std::exp(odds_of_score(std::clamp(rival.score, kLeast, 1.0 - kLeast)));
+  }
+  if (odds <= 0.0) return score;
+  const double alone = odds_of_score(std::clamp(score, kLeast, 1.0 - kLeast));
+  return std::min(score, score_of_odds(kTempered * (alone - std::log(odds))));
+}
+
+}  // namespace rejoin::outline::detail
