@@ -66,12 +66,32 @@ std::vector<std::uint32_t> chosen(const detail::Cloud& cloud, const std::vector<
   return list;
 }
 
-void add_broken(System& system, const detail::JointSides& sides, const Rigid& pose, const glm::dvec3& pivot,
-                Followed& samples, double reach, const AlignOptions& options) {
-  const detail::Cloud& a = sides.a().broken;
-  const detail::Cloud& b = sides.b().broken;
-  const detail::Move move(pose);
-  const detail::Finder finder = sides.broken_finder(options.quick);
+/// One fragment's samples that are compared with the other's: B's with A's, or, looking back, A's with B's.
+struct View {
+  const detail::JointSides& sides;  ///< looking back, those that are exchanged
+  Rigid pose;                       ///< B -> A
+  bool back = false;
+  glm::dvec3 pivot;  ///< of the motion that is looked for
+
+  detail::Move move() const { return detail::Move(back ? inverse(pose) : pose); }
+
+  /// A sample that lies `offset` outside the plane through its neighbour, both in the frame of the latter.
+  void add(System& system, const glm::vec3& sample, const glm::vec3& neighbour, const glm::dvec3& normal,
+           double offset, double weight) const {
+    if (back) {
+      system.add(pose(glm::dvec3(neighbour)) - pivot, pose.rotation * normal, -offset, weight);
+    } else {
+      system.add(glm::dvec3(sample) - pivot, normal, offset, weight);
+    }
+  }
+};
+
+void add_broken(System& system, const View& view, Followed& samples, double reach,
+                const AlignOptions& options) {
+  const detail::Cloud& a = view.sides.a().broken;
+  const detail::Cloud& b = view.sides.b().broken;
+  const detail::Move move = view.move();
+  const detail::Finder finder = view.sides.broken_finder(options.quick);
   for (std::size_t k = 0; k < samples.list.size(); ++k) {
     const std::uint32_t i = samples.list[k];
     if (options.core_only && b.edge[i]) continue;
@@ -81,18 +101,17 @@ void add_broken(System& system, const detail::JointSides& sides, const Rigid& po
     const glm::vec3 n = a.normals[hit->first];
     if (glm::dot(n, move.direction(b.normals[i])) > detail::kFacing) continue;
     const auto offset = static_cast<double>(glm::dot(p - a.points[hit->first], n));
-    system.add(glm::dvec3(p) - pivot, glm::dvec3(n), offset, tukey(offset, reach));
+    view.add(system, p, a.points[hit->first], glm::dvec3(n), offset, tukey(offset, reach));
   }
 }
 
 /// Walls continue across the seam: (p - q).(n_p + n_q) vanishes on planes, cylinders and spheres.
-void add_walls(System& system, const detail::JointSides& sides, const Rigid& pose, const glm::dvec3& pivot,
-               Followed& samples, double reach, bool quick) {
-  const detail::Cloud& a = sides.a().walls;
-  const detail::Cloud& b = sides.b().walls;
-  const double near = detail::kWallNear * sides.lengths().thickness;
-  const detail::Move move(pose);
-  const detail::Finder finder = sides.wall_finder(quick);
+void add_walls(System& system, const View& view, Followed& samples, double reach, bool quick) {
+  const detail::Cloud& a = view.sides.a().walls;
+  const detail::Cloud& b = view.sides.b().walls;
+  const double near = detail::kWallNear * view.sides.lengths().thickness;
+  const detail::Move move = view.move();
+  const detail::Finder finder = view.sides.wall_finder(quick);
   for (std::size_t k = 0; k < samples.list.size(); ++k) {
     const std::uint32_t i = samples.list[k];
     const glm::vec3 p = move(b.points[i]);
@@ -103,8 +122,29 @@ void add_walls(System& system, const detail::JointSides& sides, const Rigid& pos
     if (glm::dot(n_a, n_b) < detail::kWallAlike) continue;
     const glm::dvec3 n = glm::normalize(glm::dvec3(n_a + n_b));
     const double offset = glm::dot(glm::dvec3(p - a.points[hit->first]), n);
-    system.add(glm::dvec3(p) - pivot, n, offset, kWallWeight * tukey(offset, reach));
+    view.add(system, p, a.points[hit->first], n, offset, kWallWeight * tukey(offset, reach));
   }
+}
+
+/// Samples that take part, of one fragment.
+struct Sampled {
+  Followed broken;
+  Followed walls;
+};
+
+/// \param pose  from the samples' fragment to the other one
+Sampled sampled(const detail::JointSides& s, const Rigid& pose, int facet, const AlignOptions& options) {
+  auto broken = chosen(s.b().broken, s.b().broken_of(facet), s.a().broken_box, s.broken_finder(options.quick),
+                       pose, 2.0 * options.reach_start, options.most_samples);
+  if (options.half >= 0) {
+    std::erase_if(broken, [&](std::uint32_t i) { return static_cast<int>(i % 2) != options.half; });
+  }
+  const double thickness = s.lengths().thickness;
+  auto walls = thickness > 0
+                   ? chosen(s.b().walls, s.b().all_walls, s.a().wall_box, s.wall_finder(options.quick), pose,
+                            detail::kWallNear * thickness + options.reach_start, options.most_samples)
+                   : std::vector<std::uint32_t>{};
+  return {Followed(std::move(broken)), Followed(std::move(walls))};
 }
 
 }  // namespace
@@ -122,29 +162,26 @@ Rigid Joint::align(const Rigid& start, const AlignOptions& options) const {
   const detail::JointSides& s = *sides_;
   const detail::JointLengths& l = s.lengths();
   Rigid pose = start;
-  auto list = chosen(s.b().broken, s.b().broken_of(options.facet_b), s.a().broken_box,
-                     s.broken_finder(options.quick), pose, 2.0 * options.reach_start, options.most_samples);
-  auto near_walls =
-      l.thickness > 0
-          ? chosen(s.b().walls, s.b().all_walls, s.a().wall_box, s.wall_finder(options.quick), pose,
-                   detail::kWallNear * l.thickness + options.reach_start, options.most_samples)
-          : std::vector<std::uint32_t>{};
-  if (options.half >= 0) {
-    std::erase_if(list, [&](std::uint32_t i) { return static_cast<int>(i % 2) != options.half; });
-  }
-  if (list.size() < 12) return pose;
-  Followed broken(std::move(list));
-  Followed walls(std::move(near_walls));
+  Sampled of_b = sampled(s, pose, options.facet_b, options);
+  if (of_b.broken.list.size() < 12) return pose;
+  std::optional<Sampled> of_a;
+  if (options.both) of_a = sampled(*exchanged_, inverse(pose), -1, options);
   for (int k = 0; k < options.iterations; ++k) {
     const double part = options.iterations > 1 ? static_cast<double>(k) / (options.iterations - 1) : 1.0;
     const double reach = options.reach_start * std::pow(options.reach_end / options.reach_start, part);
     glm::dvec3 pivot(0.0);
-    for (const auto i : broken.list) pivot += pose(glm::dvec3(s.b().broken.points[i]));
-    pivot /= static_cast<double>(broken.list.size());
+    for (const auto i : of_b.broken.list) pivot += pose(glm::dvec3(s.b().broken.points[i]));
+    pivot /= static_cast<double>(of_b.broken.list.size());
     System system;
-    add_broken(system, s, pose, pivot, broken, reach, options);
+    const View view{s, pose, false, pivot};
+    const View back{*exchanged_, pose, true, pivot};
+    add_broken(system, view, of_b.broken, reach, options);
     if (system.weight < 6.0) break;
-    if (l.thickness > 0) add_walls(system, s, pose, pivot, walls, reach, options.quick);
+    if (of_a) add_broken(system, back, of_a->broken, reach, options);
+    if (l.thickness > 0) {
+      add_walls(system, view, of_b.walls, reach, options.quick);
+      if (of_a) add_walls(system, back, of_a->walls, reach, options.quick);
+    }
     // A little resistance keeps directions still that nothing holds (sliding on a plane).
     const double arm = 10.0 * l.spacing;
     for (int q = 0; q < 6; ++q) system.matrix(q, q) += 1e-3 * system.weight * (q < 3 ? arm * arm : 1.0);

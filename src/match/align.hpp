@@ -22,7 +22,9 @@ struct AlignOptions {
   bool core_only = false;  ///< leave out what is next to another facet: worn edges lie
   int facet_b = -1;    ///< only samples of this facet of B (match/cuts.hpp); -1: of all its broken surface
   bool quick = false;  ///< nearest points are looked up in tables: they are nearly the nearest
-  int half = -1;       ///< 0 or 1: every other of B's broken samples: the two share none; -1: all
+  bool both =
+      false;      ///< A's samples are compared with B's, too: each finds what the other has no samples for
+  int half = -1;  ///< 0 or 1: every other of B's broken samples: the two share none; -1: all
 };
 
 struct LookOptions {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 
 #include "core/parallel.hpp"
@@ -14,8 +13,6 @@ namespace {
 
 constexpr std::size_t kEvenIfCancelled = 6;
 constexpr std::array kTighter{0.7, 0.5, 0.35};  // reaches, tolerances
-constexpr std::array kSteps{0.4, 0.2, 0.1};     // of a climb, tolerances
-constexpr int kStepRounds = 4;                  // of each size, at most
 constexpr double kUnbacked = 0.9;               // share of the contact
 constexpr double kSkin = 4.0;                   // patches: less goes on at wrong poses, too
 constexpr double kNoLimit = -std::numeric_limits<double>::infinity();
@@ -34,35 +31,6 @@ void take_if_stronger(const Rigid& pose, const Joint& joint, Hypothesis& hypothe
   hypothesis.strength = strength(*evidence);
 }
 
-/// Small motions of a joint that has some shape: turns about its centre and shifts, both ways along its own axes.
-/// \param step  how far a shift goes, and a turn at half the root of the shared area, mesh units
-std::array<Rigid, 12> steps_about(const Evidence& joint, double step) {
-  const glm::dvec3 along = joint.along;
-  const glm::dvec3 across = glm::normalize(glm::cross(joint.normal, along));
-  const double angle = 2.0 * step / std::sqrt(joint.shared_area);
-  std::array<Rigid, 12> steps;
-  std::size_t k = 0;
-  for (const glm::dvec3& axis : {along, across, glm::cross(along, across)}) {
-    for (const double sign : {1.0, -1.0}) {
-      const glm::dmat3 turn = axis_rotation(axis, sign * angle);
-      steps[k++] = {turn, joint.centre - turn * joint.centre};
-      steps[k++] = {glm::dmat3(1.0), sign * step * axis};
-    }
-  }
-  return steps;
-}
-
-/// Goes wherever a step makes the joint stronger, until none does or the rounds are over.
-void climb(Hypothesis& hypothesis, const Joint& joint, double step) {
-  for (int round = 0; round < kStepRounds; ++round) {
-    const double before = hypothesis.strength;
-    for (const Rigid& motion : steps_about(hypothesis.evidence, step)) {
-      take_if_stronger(motion * hypothesis.pose, joint, hypothesis);
-    }
-    if (hypothesis.strength <= before) break;
-  }
-}
-
 void tighten_one(Hypothesis& hypothesis, const Joint& joint) {
   const double t = joint.tolerance();
   const Rigid start = hypothesis.pose;
@@ -70,10 +38,14 @@ void tighten_one(Hypothesis& hypothesis, const Joint& joint) {
     take_if_stronger(joint.align(start, {1.0 * t, reach * t, 15, 0, true}), joint, hypothesis);
   }
   if (score_of(hypothesis.strength) < kPossible) return;
-  Hypothesis settled = hypothesis;
-  for (const double step : kSteps) climb(settled, joint, step * t);
-  hypothesis.pose = settled.pose;  // not the strength: small steps gain at false poses as much
-  hypothesis.evidence = settled.evidence;
+  // Not the strength: at false poses it gains as much.
+  hypothesis.pose = joint.align(hypothesis.pose, {.reach_start = 2.0 * t,
+                                                  .reach_end = 0.7 * t,
+                                                  .iterations = 15,
+                                                  .most_samples = 0,
+                                                  .core_only = true,
+                                                  .both = true});
+  hypothesis.evidence = joint.agreed_evidence(hypothesis.pose);
 }
 
 }  // namespace

@@ -36,14 +36,14 @@ std::vector<Pass> passes(double tolerance, int most);
 void refine(std::vector<Hypothesis>& list, const Joint& joint, const Pass& pass, const Context& context);
 
 /// The first `most` of a list that are different poses.
-/// \param diameter  of the larger fragment, mesh units
+/// \param diameter  of the smaller fragment, mesh units
 std::vector<Hypothesis> distinct(const std::vector<Hypothesis>& list, const Fragment& b, double diameter,
                                  std::size_t most);
 
 /// Aligns the first, and all others that may be a join, again with shorter reaches and takes what is stronger, for how far
-/// worn places have to be left out differs from joint to joint; what may be a join goes on in small steps while they make it
-/// stronger, but keeps the strength of where it was aligned; then sorts, and keeps one of poses that came together.
-/// \param diameter  of the larger fragment, mesh units
+/// worn places have to be left out differs from joint to joint; what may be a join is then aligned by both surfaces' samples, but
+/// keeps the strength of where it was; then sorts, and keeps one of poses that came together.
+/// \param diameter  of the smaller fragment, mesh units
 /// \pre sorted by refine()
 void tighten(std::vector<Hypothesis>& list, const Joint& joint, const Fragment& b, double diameter);
 

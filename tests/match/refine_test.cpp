@@ -4,6 +4,7 @@
 
 #include <initializer_list>
 
+#include "core/random.hpp"
 #include "match/verify.hpp"
 #include "prepared_pair.hpp"
 
@@ -37,31 +38,35 @@ TEST(Refine, TighteningNeverWeakensAndSorts) {
   tighten(list, joint, pair.b, 0.0);  // by this diameter no two poses are one
   ASSERT_EQ(list.size(), 2U);
   EXPECT_GE(list[0].strength, strongest);
-  EXPECT_GE(list[0].strength, list[1].strength);
-  for (const Hypothesis& hypothesis : list)
-    EXPECT_LE(hypothesis.strength, strength(joint.agreed_evidence(hypothesis.pose)));
+  EXPECT_GE(rank(list[0].evidence), rank(list[1].evidence));
 }
 
-TEST(Refine, TighteningGoesOnWhereAlignmentEnds) {
-  Pair pair = make_pair(6);
-  mesh::Mesh worn = pair.planted.b;  // nearly half of the break recedes, more and more
-  for (auto& v : worn.vertices) {
-    const glm::dvec3 p = pair.truth(glm::dvec3(v));
-    if (std::abs(p.z) >= 0.9 * testing::kHalfZ || p.x < 2.0) continue;
-    v += glm::vec3(glm::transpose(pair.truth.rotation) * glm::dvec3(0, 0, 0.1 * (p.x - 2.0)));
+// Which samples of A are nearest is chance where scans are noisy; by both ones' samples that is less.
+TEST(Refine, TighteningEndsNearerToTheTruthThanEitherOnesSamples) {
+  double settled = 0.0;
+  double by_b = 0.0;
+  double by_a = 0.0;
+  for (const std::uint64_t seed : {5U, 6U, 7U, 8U}) {
+    Pair pair = make_pair(seed);
+    Random random(seed);
+    for (mesh::Mesh* scan : {&pair.planted.a, &pair.planted.b}) {
+      for (auto& v : scan->vertices) v += 0.1F * glm::vec3(random.normal(), random.normal(), random.normal());
+    }
+    pair.a = prepare("a", pair.planted.a, Context{});
+    pair.b = prepare("b", pair.planted.b, Context{});
+    const Joint joint(pair.a, pair.b);
+    const Joint from_a(pair.b, pair.a);
+    std::vector<Hypothesis> list = moved_from_truth(pair, joint, {0.2});
+    const Rigid start = list.front().pose;
+    const double t = joint.tolerance();
+    const AlignOptions options{2.0 * t, 0.7 * t, 15, 0, true};
+    by_b += worst_offset(joint.align(start, options), pair.truth, pair.b.surface);
+    by_a += worst_offset(inverse(from_a.align(inverse(start), options)), pair.truth, pair.b.surface);
+    tighten(list, joint, pair.b, 0.0);
+    settled += worst_offset(list.front().pose, pair.truth, pair.b.surface);
   }
-  pair.b = prepare("worn", worn, Context{});
-  const Joint joint(pair.a, pair.b);
-  const std::vector<Hypothesis> start = moved_from_truth(pair, joint, {0.4});
-  std::vector<Hypothesis> list = start;
-  tighten(list, joint, pair.b, 0.0);
-  const double settled = strength(joint.agreed_evidence(list.front().pose));
-  EXPECT_LT(list.front().strength, settled);  // which does not count: small steps gain at false poses, too
-  const double t = joint.tolerance();
-  for (const double reach : {1.0, 0.7, 0.5, 0.35}) {
-    const Rigid aligned = joint.align(start.front().pose, {1.0 * t, reach * t, 15, 0, true});
-    EXPECT_GT(settled, strength(joint.agreed_evidence(aligned))) << reach;
-  }
+  EXPECT_LT(settled, by_b);
+  EXPECT_LT(settled, by_a);
 }
 
 TEST(Refine, WornEdgesDoNotPressTheSurfacesIntoEachOther) {
