@@ -36,18 +36,20 @@ float shorter_border(const ReliefMap& a, const ReliefMap& b) {
 /// By how many pixels a field may be shorter than both maps together.  Then shifts at opposite ends, where the maps overlap
 /// by a and b lines, a + b the result, come to lie on one another; there are not `least` pixels in the two overlaps.
 std::size_t lines_to_spare(const std::vector<int>& first, const std::vector<int>& second, float least) {
-  const auto head = [](const std::vector<int>& lines, std::size_t count) {
-    return std::accumulate(lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(count), 0);
+  const auto heads = [](auto begin, auto end) {  // of no lines, one, two and so on
+    std::vector<int> sums{0};
+    for (; begin != end; ++begin) sums.push_back(sums.back() + *begin);
+    return sums;
   };
-  const auto tail = [](const std::vector<int>& lines, std::size_t count) {
-    return std::accumulate(lines.end() - static_cast<std::ptrdiff_t>(count), lines.end(), 0);
-  };
+  const std::vector<int> head_1 = heads(first.begin(), first.end());
+  const std::vector<int> tail_1 = heads(first.rbegin(), first.rend());
+  const std::vector<int> head_2 = heads(second.begin(), second.end());
+  const std::vector<int> tail_2 = heads(second.rbegin(), second.rend());
   const std::size_t most = std::min(first.size(), second.size());
   for (std::size_t spare = 1; spare <= most; ++spare) {
     for (std::size_t a = 0; a <= spare; ++a) {
       const std::size_t b = spare - a;
-      const int overlap =
-          std::min(tail(first, a), head(second, a)) + std::min(head(first, b), tail(second, b));
+      const int overlap = std::min(tail_1[a], head_2[a]) + std::min(head_1[b], tail_2[b]);
       if (static_cast<float>(overlap) + 1.0F >= least) return spare - 1;
     }
   }
