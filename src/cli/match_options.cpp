@@ -83,6 +83,15 @@ void MatchOptions::require_effect(const match::Options& options) const {
     throw UsageError("--tolerance", "has no direction that it could be of",
                      "add --direction-a or --direction-b, or leave it out");
   }
+  const auto require_one = [](const std::vector<int>& facets, const std::vector<glm::dvec3>& directions,
+                              const char* facets_name, const char* directions_name) {
+    if (facets.empty() || directions.empty()) return;
+    throw UsageError(directions_name,
+                     std::string("changes nothing: ") + facets_name + " says which breaks are looked at",
+                     "leave out one of the two");
+  };
+  require_one(options.facets_a, options.directions_a, "--facets-a", "--direction-a");
+  require_one(options.facets_b, options.directions_b, "--facets-b", "--direction-b");
   if (chains_->count() > 0 && options.search != match::Search::Esa)
     throw UsageError("--chains", "serves --search esa only", "leave out one, or add the other");
 }

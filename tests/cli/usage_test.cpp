@@ -155,6 +155,9 @@ INSTANTIATE_TEST_SUITE_P(
                  {"compare", "a.ply", "b.ply", "--pose", "p", "--steps", "1.5"},
                  "whole number from 0 to 3"},
         WrongUse{"EmptyResolution", {"match", "a.ply", "b.ply", "--resolution", ""}, "8 to 2048"},
+        WrongUse{"FacetsAndDirection",
+                 {"match", "a.ply", "b.ply", "--facets-b", "1", "--direction-b", "0,0,1"},
+                 "--direction-b: changes nothing"},
         WrongUse{"NegativeFacet", {"match", "a.ply", "b.ply", "--facets-a", "-1"}, "--facets-a"},
         WrongUse{
             "FacetLeftOut", {"match", "a.ply", "b.ply", "--facets-a", "1,,2"}, "'1,,2' is no list of whole"},
