@@ -27,15 +27,16 @@ using detail::kWallNear;
 using detail::middle_and_axis;
 using detail::robust_deviation;
 
-constexpr int kBodySamples = 4000;  // of B that are asked whether they lie inside A
-constexpr double kWallStep = 0.3;   // wall thicknesses by which walls that go on may be offset
-constexpr double kWallsTell = 0.1;  // of the shared area, of walls at the seam that tell something
-constexpr double kScanned = 0.5;    // wall thicknesses within which a scan has surface where it was scanned
-constexpr double kWallBend = 0.25;  // walls bend by at most 75 degrees at a seam
-constexpr int kQuadricRounds = 12;  // at most
-constexpr double kLoose = 0.5;      // gap spread, in tolerances, that halves what a joint is worth
-constexpr double kOpenCosts = 4.0;  // exponent of the share that touches
-constexpr double kContact = 0.2;    // nats that a touching patch is worth among poses of one pair
+constexpr int kBodySamples = 4000;   // of B that are asked whether they lie inside A
+constexpr double kWallStep = 0.3;    // wall thicknesses by which walls that go on may be offset
+constexpr double kWallsTell = 0.1;   // of the shared area, of walls at the seam that tell something
+constexpr double kScanned = 0.5;     // wall thicknesses within which a scan has surface where it was scanned
+constexpr double kWallBend = 0.25;   // walls bend by at most 75 degrees at a seam
+constexpr double kWallTurn = -0.35;  // walls that bend by more, up to 110 degrees, tell nothing
+constexpr int kQuadricRounds = 12;   // at most
+constexpr double kLoose = 0.5;       // gap spread, in tolerances, that halves what a joint is worth
+constexpr double kOpenCosts = 4.0;   // exponent of the share that touches
+constexpr double kContact = 0.2;     // nats that a touching patch is worth among poses of one pair
 constexpr double kMostPatches = 16.0;  // more contact than this says no more
 constexpr double kWallsGoOn = 0.8;     // share of the walls that go on across a true seam, at least
 constexpr double kBorderNear = 0.4;    // patches next to the contact that are left out: worn edges lie
@@ -262,6 +263,7 @@ class Look {
         if (!anything.within(2.0F * seam - p, kScanned * lengths_.thickness)) continue;
         goes = goes_on(p, normal, seam, near, anything, {a_.body, kWallBend, step});
       }
+      if (!goes && turns_away(p, normal, seam)) continue;
       const double area = chosen.each * static_cast<double>(b_.walls.areas[i]);
       all += area;
       if (goes) found += area;
@@ -308,6 +310,16 @@ class Look {
       return std::abs(glm::dot(glm::dvec3(p - skin.of_a.points[hit->first]), between)) < skin.step;
     };
     return alike(finder.within(p, 2.0 * near)) || alike(finder.within(2.0F * seam - p, near));
+  }
+
+  /// Whether A's wall begins at the seam, in line with a point of B's, but turns by about a right angle there or soon behind, as
+  /// along the edge of a foot: no place of it can be compared.
+  bool turns_away(const glm::vec3& p, const glm::dvec3& normal, const glm::vec3& seam) const {
+    const Finder finder = sides_.wall_finder(quick_);
+    const auto beyond = finder.within(2.0F * seam - p, kWallNear * lengths_.thickness);
+    if (!beyond) return false;
+    const double bend = glm::dot(glm::dvec3(a_.walls.normals[beyond->first]), normal);
+    return bend < kWallBend && bend > kWallTurn;
   }
 
   const detail::JointSides& sides_;

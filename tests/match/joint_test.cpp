@@ -253,16 +253,19 @@ TEST(Joint, FlatSidesWithWornRimsGiveNoInformation) {
   EXPECT_LT(strength_of_shape(evidence), 1.0);
 }
 
-/// Half of a plate 8 mm thick, broken across; from the break on, the upper half leans by an angle.
-Fragment half_plate(bool below, double lean_deg) {
+/// Half of a plate 8 mm thick, broken across; from the break on, the upper half leans by an angle, or both
+/// do, to one side, and the break is less rough.
+Fragment half_plate(bool below, double lean_deg, bool both = false) {
   mesh::Mesh half = testing::half_block(below, 96);
   for (auto& v : half.vertices) {
     const bool far = std::abs(v.z) == static_cast<float>(testing::kHalfZ);
     v.x *= 0.1F;
-    const double cut = 0.5 * testing::cut_height(static_cast<double>(v.x), static_cast<double>(v.y));
+    const double cut =
+        (both ? 0.1 : 0.5) * testing::cut_height(static_cast<double>(v.x), static_cast<double>(v.y));
     const double end = below ? -40.0 : 40.0;
     v.z = static_cast<float>(far ? end : cut);
-    if (far && !below) v.x += static_cast<float>(std::tan(lean_deg * kDegree) * (end - cut));
+    const bool leans = !below || both;
+    if (far && leans) v.x += static_cast<float>(std::tan(lean_deg * kDegree) * std::abs(end - cut));
   }
   return prepare(below ? "below" : "above", half, Context{});
 }
@@ -274,6 +277,17 @@ TEST(Joint, WallsGoOnWhereTheyBendAtTheBreakButNotOverAStep) {
     EXPECT_GT(score_of(strength(joint.agreed_evidence(Rigid{}))), 0.99) << lean_deg << " degrees";
     const Rigid step{glm::dmat3(1.0), {4.0, 0.0, 0.0}};
     EXPECT_LT(joint.evidence(step, 0).wall_share, 0.2) << lean_deg << " degrees";
+  }
+}
+
+// As along the edge of a foot: what is as far behind the seam as another place is before it lies elsewhere.
+TEST(Joint, WallsThatMeetAtARightAngleSayNothingAgainstIt) {
+  for (const double lean_deg : {38.0, 48.0}) {
+    const Fragment below = half_plate(true, lean_deg, true);
+    const Fragment above = half_plate(false, lean_deg, true);
+    ASSERT_TRUE(both_thin(below, above));
+    const Joint joint(below, above);
+    EXPECT_GT(score_of(strength(joint.agreed_evidence(Rigid{}))), 0.99) << lean_deg << " degrees";
   }
 }
 
