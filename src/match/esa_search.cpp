@@ -316,7 +316,7 @@ std::vector<EsaHypothesis> esa_search(const Fragment& a, const Fragment& b, cons
   EsaStats unused;
   std::vector<EsaHypothesis> all = EsaRun(a, b, options, esa, context, stats ? *stats : unused).search();
   if (esa.every_chain) return all;
-  const auto ranked = distinct(std::move(all), b, std::max(a.diameter, b.diameter));
+  const auto ranked = distinct(std::move(all), b, std::min(a.diameter, b.diameter));
   return shared_out(ranked, static_cast<std::size_t>(std::max(0, options.max_candidates)));
 }
 

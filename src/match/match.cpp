@@ -97,11 +97,17 @@ std::vector<int> allowed_facets(const Fragment& fragment, const std::vector<int>
   return facets_facing(fragment, directions, options.tolerance_deg);
 }
 
-bool axes_agree(const Rigid& pose, const Options& options) {
+/// Whether the material's axes, if they are known, are that far off each other at most.
+bool axes_agree(const Rigid& pose, const Options& options, double most_deg) {
   if (!options.material_a || !options.material_b) return true;
   const double cosine = std::abs(
       glm::dot(glm::normalize(*options.material_a), pose.rotation * glm::normalize(*options.material_b)));
-  return cosine > std::cos((options.tolerance_deg + 10.0) * kDegree);
+  return cosine >= std::cos(most_deg * kDegree);
+}
+
+/// For what the sweep or the rims propose, which the alignment still turns.
+bool axes_may_agree(const Rigid& pose, const Options& options) {
+  return axes_agree(pose, options, options.tolerance_deg + 10.0);
 }
 
 std::vector<Hypothesis> run_sweep(const Fragment& a, const Fragment& b, const Options& options,
@@ -118,7 +124,8 @@ std::vector<Hypothesis> run_sweep(const Fragment& a, const Fragment& b, const Op
   result.evaluations = swept.evaluations;
   std::vector<Hypothesis> hypotheses;
   for (const auto& hit : swept.hits) {
-    if (axes_agree(hit.pose, options)) hypotheses.push_back({hit.pose, {}, 0.0, hit.facet_a, hit.facet_b});
+    if (axes_may_agree(hit.pose, options))
+      hypotheses.push_back({hit.pose, {}, 0.0, hit.facet_a, hit.facet_b});
   }
   return hypotheses;
 }
@@ -127,7 +134,7 @@ std::vector<Hypothesis> proposed(const Fragment& a, const Fragment& b, const Opt
   std::vector<Hypothesis> hypotheses;
   for (const Rigid& proposal : options.proposals) {
     const Rigid pose = to_origins(a, b, proposal);
-    if (axes_agree(pose, options)) hypotheses.push_back({pose, {}, 0.0, -1, -1});
+    if (axes_may_agree(pose, options)) hypotheses.push_back({pose, {}, 0.0, -1, -1});
   }
   return hypotheses;
 }
@@ -158,7 +165,7 @@ void align(std::vector<Hypothesis>& hypotheses, const Joint& joint, const Fragme
   for (const Pass& pass : rounds) {
     refine(hypotheses, joint, pass, context);
     if (near) keep_near(hypotheses, *near);
-    hypotheses = distinct(hypotheses, b, std::max(a.diameter, b.diameter), pass.kept);
+    hypotheses = distinct(hypotheses, b, std::min(a.diameter, b.diameter), pass.kept);
     if (context.cancelled()) break;
   }
 }
@@ -244,8 +251,12 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
   if (!context.cancelled()) align(hypotheses, joint, a, b, near, std::span(rounds).subspan(kGlance), context);
   hypotheses.resize(std::min(hypotheses.size(), static_cast<std::size_t>(options.max_candidates)));
   if (near && !context.cancelled()) keep_laid(hypotheses, joint, a, b, *near, rounds, options, context);
-  if (!context.cancelled()) tighten(hypotheses, joint, b, std::max(a.diameter, b.diameter));
+  if (!context.cancelled()) tighten(hypotheses, joint, b, std::min(a.diameter, b.diameter));
   if (near) keep_near(hypotheses, *near);
+  if (options.search == Search::Sweep) {
+    std::erase_if(hypotheses,
+                  [&](const Hypothesis& h) { return !axes_agree(h.pose, options, options.tolerance_deg); });
+  }
   weigh(hypotheses, joint);
   close(hypotheses, joint);
   clock.lap("align");
@@ -261,7 +272,10 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
     const Hypothesis& best = hypotheses.front();
     result.stability = probe(joint, best.pose, best.evidence);
     const double next = strongest(std::span(hypotheses).subspan(1));
-    if (result.stability) result.stability->margin = log_odds(best.strength) - log_odds(next);
+    if (result.stability) {
+      result.stability->margin = log_odds(best.strength) - log_odds(next);
+      if (best.strength > 0.0) result.stability->next_share = next / best.strength;
+    }
   }
   clock.lap("verify");
   result.cancelled = context.cancelled();

@@ -15,6 +15,12 @@ namespace {
 constexpr double kSteady = 2.0;  // degrees between the poses of either half of the samples, at most
 constexpr double kSlope = 0.75;  // strength that multiplies the odds by e
 constexpr double kAhead = 11.0;  // log-odds of a sure join over those of the pair's next pose, at least
+constexpr double kNext = 0.8;    // of the strength of a sure join, that of the pair's next pose, at most
+
+/// Large joints are stronger by more than that by chance.
+bool has_rival(const Stability& stability) {
+  return stability.margin < kAhead || stability.next_share > kNext;
+}
 
 }  // namespace
 
@@ -27,7 +33,7 @@ double score_of(double strength) {
 }
 
 Verdict verdict_of(double score, const std::optional<Stability>& stability) {
-  const bool holds = stability && stability->repeat_deg <= kSteady && stability->margin >= kAhead;
+  const bool holds = stability && stability->repeat_deg <= kSteady && !has_rival(*stability);
   if (score >= kSure && holds) return Verdict::Join;
   return score >= kPossible ? Verdict::Unsure : Verdict::NoJoin;
 }
@@ -36,10 +42,9 @@ std::string against(const Evidence& evidence, double score, const std::optional<
   if (verdict_of(score, stability) == Verdict::Join) return {};
   if (score >= kSure) {
     if (!stability) return "it was not looked at whether the pose holds";
-    return stability->margin < kAhead
-               ? "another pose of the two is nearly as good"
-               : fmt::format("either half of the break turns the pose by {:.1f} degrees",
-                             stability->repeat_deg);
+    return has_rival(*stability) ? "another pose of the two is nearly as good"
+                                 : fmt::format("either half of the break turns the pose by {:.1f} degrees",
+                                               stability->repeat_deg);
   }
   const std::string found = objection(evidence);
   return found.empty() ? "the breaks have too little shape in common" : found;

@@ -56,6 +56,8 @@ TEST(Score, PoseThatAnotherComesNearOrThatTurnsIsNoSureJoin) {
   EXPECT_EQ(verdict_of(1.0, Stability{.margin = 20, .repeat_deg = 0.5}), Verdict::Join);
   EXPECT_EQ(verdict_of(1.0, Stability{.margin = 8, .repeat_deg = 0.5}), Verdict::Unsure);
   EXPECT_EQ(verdict_of(1.0, Stability{.margin = 20, .repeat_deg = 4}), Verdict::Unsure);
+  EXPECT_EQ(verdict_of(1.0, Stability{.margin = 20, .next_share = 0.5}), Verdict::Join);
+  EXPECT_EQ(verdict_of(1.0, Stability{.margin = 20, .next_share = 0.9}), Verdict::Unsure);
   EXPECT_EQ(verdict_of(0.1, Stability{.margin = 20, .repeat_deg = 0.5}), Verdict::NoJoin);
 }
 
