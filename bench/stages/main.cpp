@@ -102,13 +102,17 @@ std::vector<Hypothesis> measure_join(const match::Fragment& a, const match::Frag
   const auto passes = match::passes(joint.tolerance(), match::Options().max_candidates);
   for (std::size_t k = 0; k < passes.size(); ++k) {
     match::refine(list, joint, passes[k], Context());
-    list = match::distinct(list, b, std::max(a.diameter, b.diameter), passes[k].kept);
+    list = match::distinct(list, b, std::min(a.diameter, b.diameter), passes[k].kept);
     const double seconds = lap(last);
     stages.add(k + 1, fmt::format("pass {}", k + 1), list, truth, a, b, seconds);
     lap(last);
   }
-  match::tighten(list, joint, b, std::max(a.diameter, b.diameter));
+  match::tighten(list, joint, b, std::min(a.diameter, b.diameter));
   stages.add(passes.size() + 1, "tightening", list, truth, a, b, lap(last));
+  lap(last);
+  match::weigh(list, joint);
+  match::settle(list, joint, b, std::min(a.diameter, b.diameter));
+  stages.add(passes.size() + 2, "settling", list, truth, a, b, lap(last));
   return list;
 }
 

@@ -258,7 +258,7 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
                   [&](const Hypothesis& h) { return !axes_agree(h.pose, options, options.tolerance_deg); });
   }
   weigh(hypotheses, joint);
-  close(hypotheses, joint);
+  settle(hypotheses, joint, b, std::min(a.diameter, b.diameter));
   clock.lap("align");
 
   context.report("verify", 0.8);

@@ -37,15 +37,6 @@ void tighten_one(Hypothesis& hypothesis, const Joint& joint) {
   for (const double reach : kTighter) {
     take_if_stronger(joint.align(start, {1.0 * t, reach * t, 15, 0, true}), joint, hypothesis);
   }
-  if (score_of(hypothesis.strength) < kPossible) return;
-  // Not the strength: at false poses it gains as much.
-  hypothesis.pose = joint.align(hypothesis.pose, {.reach_start = 2.0 * t,
-                                                  .reach_end = 0.7 * t,
-                                                  .iterations = 15,
-                                                  .most_samples = 0,
-                                                  .core_only = true,
-                                                  .both = true});
-  hypothesis.evidence = joint.agreed_evidence(hypothesis.pose);
 }
 
 }  // namespace
@@ -151,16 +142,24 @@ void weigh(std::vector<Hypothesis>& list, const Joint& joint) {
   sort_by_rank(list);
 }
 
-void close(std::vector<Hypothesis>& list, const Joint& joint) {
+void settle(std::vector<Hypothesis>& list, const Joint& joint, const Fragment& b, double diameter) {
+  const double t = joint.tolerance();
   parallel_for(list.size(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
       Hypothesis& hypothesis = list[k];
       if (score_of(hypothesis.strength) < kPossible) continue;
-      const Evidence& open = hypothesis.evidence;
-      hypothesis.pose = Rigid{glm::dmat3(1.0), -open.gap_middle * open.normal} * hypothesis.pose;
+      const Rigid aligned = joint.align(hypothesis.pose, {.reach_start = 2.0 * t,
+                                                          .reach_end = 0.7 * t,
+                                                          .iterations = 15,
+                                                          .most_samples = 0,
+                                                          .core_only = true,
+                                                          .both = true});
+      const Evidence open = joint.agreed_evidence(aligned);
+      hypothesis.pose = Rigid{glm::dmat3(1.0), -open.gap_middle * open.normal} * aligned;
       hypothesis.evidence = weigh(joint.agreed_evidence(hypothesis.pose), joint, hypothesis.pose);
     }
   });
+  list = distinct(list, b, diameter, list.size());
 }
 
 }  // namespace rejoin::match

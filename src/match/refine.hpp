@@ -41,8 +41,7 @@ std::vector<Hypothesis> distinct(const std::vector<Hypothesis>& list, const Frag
                                  std::size_t most);
 
 /// Aligns the first, and all others that may be a join, again with shorter reaches and takes what is stronger, for how far
-/// worn places have to be left out differs from joint to joint; what may be a join is then aligned by both surfaces' samples, but
-/// keeps the strength of where it was; then sorts, and keeps one of poses that came together.
+/// worn places have to be left out differs from joint to joint; then sorts, and keeps one of poses that came together.
 /// \param diameter  of the smaller fragment, mesh units
 /// \pre sorted by refine()
 void tighten(std::vector<Hypothesis>& list, const Joint& joint, const Fragment& b, double diameter);
@@ -61,9 +60,11 @@ Evidence weigh(const Evidence& evidence, const Joint& joint, const Rigid& pose);
 /// \pre tightened
 void weigh(std::vector<Hypothesis>& list, const Joint& joint);
 
-/// Shifts what may be a join along its normal until the median of its gaps, signed and away from edges, is nought; the strength
-/// stays.  For small steps press surfaces with worn edges into each other, as more of the edges touches then.
+/// Aligns what may be a join by both pieces' samples at once, and shifts it along its normal until the median of its gaps, signed
+/// and away from edges, is nought; the strength stays: false poses gain as much, and where a joint is strongest it is not nearest to the
+/// truth, as more of worn edges touches if they are pressed into each other.  Keeps one of poses that came together.
+/// \param diameter  of the smaller fragment, mesh units
 /// \pre weighed
-void close(std::vector<Hypothesis>& list, const Joint& joint);
+void settle(std::vector<Hypothesis>& list, const Joint& joint, const Fragment& b, double diameter);
 
 }  // namespace rejoin::match

@@ -42,7 +42,7 @@ TEST(Refine, TighteningNeverWeakensAndSorts) {
 }
 
 // Which samples of A are nearest is chance where scans are noisy; by both ones' samples that is less.
-TEST(Refine, TighteningEndsNearerToTheTruthThanEitherOnesSamples) {
+TEST(Refine, SettlesNearerToTheTruthThanByEitherOnesSamples) {
   double settled = 0.0;
   double by_b = 0.0;
   double by_a = 0.0;
@@ -62,7 +62,7 @@ TEST(Refine, TighteningEndsNearerToTheTruthThanEitherOnesSamples) {
     const AlignOptions options{2.0 * t, 0.7 * t, 15, 0, true};
     by_b += worst_offset(joint.align(start, options), pair.truth, pair.b.surface);
     by_a += worst_offset(inverse(from_a.align(inverse(start), options)), pair.truth, pair.b.surface);
-    tighten(list, joint, pair.b, 0.0);
+    settle(list, joint, pair.b, 0.0);
     settled += worst_offset(list.front().pose, pair.truth, pair.b.surface);
   }
   EXPECT_LT(settled, by_b);
@@ -84,7 +84,7 @@ TEST(Refine, WornEdgesDoNotPressTheSurfacesIntoEachOther) {
   std::vector<Hypothesis> list = moved_from_truth(pair, joint, {0.2});
   tighten(list, joint, pair.b, 0.0);
   const double before = list.front().strength;
-  close(list, joint);
+  settle(list, joint, pair.b, 0.0);
   EXPECT_EQ(list.front().strength, before);
   const glm::dvec3 middle = pair.planted.to_b(glm::dvec3(0.0)) - worn.origin;
   const glm::dvec3 error = list.front().pose(middle) - pair.truth(middle);
