@@ -122,6 +122,10 @@ class OutlineAssembleCommand final : public Command {
     add_outline_method(app, method_);
     add_calibration(app, calibration_);
     add_dust(app, pictures_);
+    app.add_option("--leave-out", left_out_, "a piece that is none, as pieces.png names it; repeatable")
+        ->type_name("NAME")
+        ->allow_extra_args(false)
+        ->group("Input");
   }
 
   ExitCode run(Console& console, Context& context) override {
@@ -130,7 +134,8 @@ class OutlineAssembleCommand final : public Command {
     apply_calibration(calibration_, method_, multiscale);
     if (out_) require_out();  // first, for --json may lie in it
     if (json_) require_writable_file(*json_);
-    const outline::PieceSet set = load_folder(folder_, pictures_, console, context);
+    outline::PieceSet set = load_folder(folder_, pictures_, console, context);
+    leave_out(set);
     const std::size_t count = set.pieces.size();
     if (count < 2) throw InputError(folder_, "holds one piece only", "give a folder of pieces");
     search_pairs_in_full(count * (count - 1) / 2, multiscale);
@@ -154,6 +159,9 @@ class OutlineAssembleCommand final : public Command {
       console.result(
           "  what lies upside down fits nowhere either; --method lcs finds it, but takes straight edges for "
           "joins\n");
+    if (!assembly.unplaced.empty() && method_ != OutlineMethod::Emd && method_ != OutlineMethod::Lcs)
+      console.result(
+          "  if a strip is missing between the pieces, as of worn edges, --method emd may place more\n");
     if (!assembly.joins.empty() && method_ == OutlineMethod::Lcs)
       console.result("  lcs takes straight edges for joins: look at every one of them\n");
     if (json_) console.result(fmt::format("wrote {}\n", *json_));
@@ -171,6 +179,17 @@ class OutlineAssembleCommand final : public Command {
     if (foreign)
       throw UsageError(foreign->string(), "lies among the pieces and would be lost",
                        "give --out another place");
+  }
+
+  void leave_out(outline::PieceSet& set) const {
+    for (const std::string& name : left_out_) {
+      const auto piece = std::ranges::find(set.pieces, name, &outline::Piece::name);
+      if (piece == set.pieces.end())
+        throw UsageError("--leave-out", fmt::format("'{}' names no piece of the folder", name),
+                         "take a name from pieces.png, as scan.jpg#2");
+      set.pieces.erase(piece);
+      set.left_out.push_back({name, "left out by the user"});
+    }
   }
 
   void write_pictures(const std::vector<outline::Piece>& pieces, const outline::Assembly& assembly,
@@ -191,6 +210,7 @@ class OutlineAssembleCommand final : public Command {
   std::optional<std::string> out_;
   std::optional<std::string> calibration_;
   outline::ExtractOptions pictures_;
+  std::vector<std::string> left_out_;
   OutlineMethod method_ = OutlineMethod::Automatic;
 };
 

@@ -104,7 +104,7 @@ std::string assembly_json(const outline::PieceSet& set, const outline::Assembly&
     congruent.push_back({{"name", pieces[repeat.piece].name}, {"of", pieces[repeat.of].name}});
   // All that have no place, whatever the reason; the lists after it tell that.
   unplaced.insert(unplaced.end(), untried.begin(), untried.end());
-  for (const auto* left_out : {&set.unusable, &set.repeated})
+  for (const auto* left_out : {&set.unusable, &set.repeated, &set.left_out})
     for (const outline::LeftOut& piece : *left_out) unplaced.push_back(piece.name);
   const ordered_json json = {
       {"schema", "rejoin.outline-assembly/1"},
@@ -115,6 +115,7 @@ std::string assembly_json(const outline::PieceSet& set, const outline::Assembly&
       {"untried", untried},
       {"unusable", to_json(set.unusable)},
       {"repeated", to_json(set.repeated)},
+      {"left_out", to_json(set.left_out)},
       {"congruent", congruent},
       {"rms", assembly.rms},
       {"search",

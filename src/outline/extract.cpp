@@ -294,7 +294,7 @@ void drop_dust(Loops& loops, double percent, std::vector<std::string>& notes) {
 
 Extraction extract(const std::string& path, const ExtractOptions& options) {
   Extraction result;
-  const cv::Mat image = picture::load_image(path, options.max_pixels, &result.notes);
+  cv::Mat image = picture::load_image(path, options.max_pixels, &result.notes);
   detail::Coverage coverage = detail::coverage(image, path);
   std::vector<Polygon> all = detail::contours(coverage.field, 0.5F, kLeastPoints);
   const bool hard = detail::raster_of(all) > kStaircase;

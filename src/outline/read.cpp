@@ -14,6 +14,7 @@
 #include "core/files.hpp"
 #include "core/words.hpp"
 #include "outline/detail/readers.hpp"
+#include "outline/detail/rectangles.hpp"
 #include "outline/detail/repeats.hpp"
 #include "outline/polygon.hpp"
 #include "picture/image_file.hpp"
@@ -147,8 +148,23 @@ bool is_beside_the_pieces(const std::string& name, std::vector<std::string>& res
 
 /// Whether a file is a picture of a kind that is not read.
 bool is_other_picture(const fs::path& path) {
-  constexpr std::array<const char*, 7> kKinds = {".webp", ".gif", ".bmp", ".heic", ".jp2", ".avif", ".pdf"};
+  constexpr std::array<const char*, 18> kKinds = {".webp", ".gif", ".bmp", ".heic", ".jp2", ".avif",
+                                                  ".pdf",  ".psd", ".cr2", ".cr3",  ".nef", ".arw",
+                                                  ".dng",  ".raf", ".orf", ".rw2",  ".pef", ".xcf"};
   return std::find(kKinds.begin(), kKinds.end(), extension_of(path)) != kKinds.end();
+}
+
+/// How many files that may be pieces lie in a folder inside the user's, which is not looked into.
+std::size_t pieces_inside(const fs::path& folder) {
+  std::error_code problem;
+  std::size_t count = 0;
+  std::vector<std::string> results;
+  for (auto entry = fs::directory_iterator(folder, problem); !problem && entry != fs::directory_iterator();
+       entry.increment(problem)) {
+    const fs::path& path = entry->path();
+    if (has_piece_name(path.string()) && !is_beside_the_pieces(path.filename().string(), results)) ++count;
+  }
+  return count;
 }
 
 /// Units of a file's coordinates that it says are an inch; nullopt: it says none, or what cameras write where they know none.
@@ -249,9 +265,14 @@ PieceSet read_folder(const std::string& folder, const ExtractOptions& options, c
   std::error_code problem;
   std::vector<fs::path> files;
   std::vector<fs::path> others;
+  std::vector<std::string> folders;
   std::vector<std::string> results;
   for (auto entry = fs::directory_iterator(folder, problem); !problem && entry != fs::directory_iterator();
        entry.increment(problem)) {
+    std::error_code ignored;
+    if (!has_piece_name(entry->path().string()) && fs::is_directory(entry->path(), ignored) &&
+        pieces_inside(entry->path()) > 0)
+      folders.push_back(entry->path().string());
     if (is_other_picture(entry->path())) others.push_back(entry->path());
     if (!has_piece_name(entry->path().string())) continue;
     if (!is_beside_the_pieces(entry->path().filename().string(), results)) files.push_back(entry->path());
@@ -278,6 +299,13 @@ PieceSet read_folder(const std::string& folder, const ExtractOptions& options, c
                                     *std::min_element(results.begin(), results.end()),
                                     results.size() == 1 ? "is" : "are"));
   }
+  std::sort(folders.begin(), folders.end());
+  for (const std::string& inside : folders) {
+    all.notes.push_back(fmt::format(
+        "{}: is a folder with {} of pictures or outlines and is not looked into; move them up, or "
+        "give that folder alone",
+        inside, counted(pieces_inside(inside), "file")));
+  }
   std::sort(others.begin(), others.end());
   for (const fs::path& file : others) {
     all.unusable.push_back(
@@ -293,6 +321,7 @@ PieceSet read_folder(const std::string& folder, const ExtractOptions& options, c
   const auto doubt = doubt_resolutions(usable);
   if (doubt) all.notes.push_back(*doubt);
   if (const auto mirrored = doubt_axes(all.pieces)) all.notes.push_back(*mirrored);
+  detail::take_out_rectangles(all);
   detail::take_out_repeats(all);
   if (all.pieces.empty()) throw InputError(folder, "holds nothing that can be used", all.unusable[0].reason);
   return all;

@@ -23,6 +23,8 @@ struct PieceSet {
   std::vector<std::string> notes;  ///< repairs and doubts, "FILE: ..." each; for the user
   std::vector<LeftOut> unusable;   ///< files of a folder that read_pieces() refuses, with its reasons
   std::vector<LeftOut> repeated;   ///< pieces of a folder that are the same, point for point, as another
+  std::vector<LeftOut>
+      left_out;  ///< pieces of a folder that are none, as rulers, or that the user wants left out
 };
 
 /// Whether a file of a folder may be one of its pieces by its name, as read_folder() has it.

@@ -135,7 +135,7 @@ TEST(Extract, ShadowIsNoPartOfThePiece) {
 TEST(Extract, BedOfAScannerInADarkFrameIsToldAsARectangle) {
   const Folder folder;
   cv::Mat image(200, 300, CV_8UC3, cv::Scalar(20, 20, 20));
-  cv::rectangle(image, {8, 8}, {291, 191}, cv::Scalar(230, 230, 230), cv::FILLED);
+  cv::rectangle(image, {12, 12}, {287, 187}, cv::Scalar(230, 230, 230), cv::FILLED);
   cv::circle(image, {140, 90}, 50, cv::Scalar(60, 90, 140), cv::FILLED);
   cv::imwrite(folder.file("bed.png"), image);
   const Extraction found = extract(folder.file("bed.png"));

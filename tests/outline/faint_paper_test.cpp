@@ -51,6 +51,30 @@ TEST_F(FaintPaper, OfAnotherHueIsThePiece) {
 }
 
 // A shadow, 45 % at its darkest, falls on the scanner's lid below and to the right.
+// A surface between paper and background would follow both.
+TEST_F(FaintPaper, OnABackgroundOfOneColourIsNoUnevenLight) {
+  cv::Mat image(1000, 900, CV_16SC3, cv::Scalar(245, 244, 243));
+  cv::Mat paper = cv::Mat::zeros(image.size(), CV_8U);
+  cv::ellipse(paper, {450, 500}, {410, 470}, 0, 0, 360, cv::Scalar(255), cv::FILLED);
+  image.setTo(cv::Scalar(230, 238, 240), paper);
+  for (int y = 220; y < 820; y += 50) {
+    cv::putText(image, "sold to the parish one field", {200, y}, cv::FONT_HERSHEY_SIMPLEX, 1.0,
+                cv::Scalar(60, 70, 80), 3);
+  }
+  cv::Mat noise(image.size(), CV_16SC3);
+  cv::theRNG().state = 7;
+  cv::randn(noise, cv::Scalar::all(0), cv::Scalar::all(1));
+  cv::Mat grain(image.size(), CV_16SC3);
+  cv::randn(grain, cv::Scalar::all(0), cv::Scalar::all(5));
+  grain.copyTo(noise, paper);
+  image += noise;
+  image.convertTo(image, CV_8U);
+  const Extraction found = extract(saved(image));
+  const double area = M_PI * 410.0 * 470.0;
+  EXPECT_NEAR(signed_area(found.pieces[0].points), area, 0.02 * area);
+  for (const std::string& note : found.notes) EXPECT_EQ(note.find("evened out"), std::string::npos) << note;
+}
+
 TEST_F(FaintPaper, OfAnotherHueIsToldFromItsShadow) {
   const cv::Rect paper(80, 60, 430, 470);
   cv::Mat light(600, 600, CV_32F, cv::Scalar(1.0));

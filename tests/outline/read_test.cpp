@@ -421,6 +421,67 @@ TEST_F(Read, PipesAndFoldersWithNamesOfPicturesAreToldAndLeftOut) {
   EXPECT_NE(set.unusable[1].reason.find("pipe.png: is a pipe or device; "), std::string::npos);
 }
 
+TEST_F(Read, FoldersOfPiecesAndRawPicturesAreTold) {
+  cv::imwrite((folder_ / "a.png").string(), blot(30));
+  write("b.NEF", "raw");
+  std::filesystem::create_directory(folder_ / "more");
+  std::filesystem::create_directory(folder_ / "notes");
+  cv::imwrite((folder_ / "more" / "c.png").string(), blot(20));
+  cv::imwrite((folder_ / "more" / "pieces.png").string(), blot(20));
+  const PieceSet set = read_folder(folder_.string());
+  EXPECT_EQ(set.pieces.size(), 1U);
+  ASSERT_EQ(set.unusable.size(), 1U);
+  EXPECT_EQ(set.unusable[0].name, "b.NEF");
+  ASSERT_EQ(set.notes.size(), 1U);
+  EXPECT_NE(set.notes[0].find("more: is a folder with 1 file"), std::string::npos) << set.notes[0];
+}
+
+/// A torn piece beside a ruler with rounded corners, a little askew, on black.
+cv::Mat with_ruler() {
+  cv::Mat picture(900, 1200, CV_8UC3, cv::Scalar(20, 20, 20));
+  const cv::RotatedRect ruler(cv::Point2f(600, 750), cv::Size2f(900, 120), 2.0F);
+  std::array<cv::Point2f, 4> corners;
+  ruler.points(corners.data());
+  std::vector<cv::Point> polygon(corners.begin(), corners.end());
+  cv::fillConvexPoly(picture, polygon, cv::Scalar(240, 240, 240), cv::LINE_AA);
+  std::vector<cv::Point> piece;  // nearly a rectangle, but torn
+  for (int k = 0; k < 120; ++k) {
+    const double at = k / 30.0;
+    const int side = static_cast<int>(at);
+    const double along = 400.0 * (at - side);
+    const double rough = 6.0 * std::sin(9.7 * k) + 300.0;
+    const std::array<cv::Point2d, 4> places{{{along, 300.0 - rough},
+                                             {400.0 + rough - 300.0, along},
+                                             {400.0 - along, rough + 100.0},
+                                             {300.0 - rough, 400.0 - along}}};
+    piece.emplace_back(300 + static_cast<int>(places[static_cast<std::size_t>(side)].x),
+                       120 + static_cast<int>(places[static_cast<std::size_t>(side)].y));
+  }
+  cv::fillPoly(picture, std::vector<std::vector<cv::Point>>{piece}, cv::Scalar(120, 180, 210), cv::LINE_AA);
+  return picture;
+}
+
+TEST_F(Read, RulersBesidePiecesAreLeftOutButNotAlone) {
+  const cv::Mat picture = with_ruler();
+  cv::imwrite((folder_ / "both.png").string(), picture);
+  const PieceSet set = read_folder(folder_.string());
+  ASSERT_EQ(set.pieces.size(), 1U);
+  EXPECT_EQ(set.pieces[0].name, "both.png");  // the larger
+  ASSERT_EQ(set.left_out.size(), 1U);
+  EXPECT_EQ(set.left_out[0].name, "both.png#2");
+  cv::imwrite((folder_ / "both.png").string(), picture(cv::Rect(0, 600, 1200, 300)));
+  EXPECT_EQ(read_folder(folder_.string()).pieces.size(), 1U);
+}
+
+TEST_F(Read, WhatWasCutOutOfAPieceStays) {
+  cv::Mat picture(900, 1200, CV_8UC3, cv::Scalar(20, 20, 20));
+  cv::circle(picture, {400, 450}, 350, cv::Scalar(240, 240, 240), cv::FILLED, cv::LINE_AA);
+  cv::rectangle(picture, cv::Rect(300, 400, 200, 120), cv::Scalar(20, 20, 20), cv::FILLED);
+  cv::rectangle(picture, cv::Rect(900, 400, 200, 120), cv::Scalar(240, 240, 240), cv::FILLED);
+  cv::imwrite((folder_ / "page.png").string(), picture);
+  EXPECT_EQ(read_folder(folder_.string()).pieces.size(), 2U);
+}
+
 TEST_F(Read, NamesThatAreNoUtf8AreToldAndLeftOut) {
   write("\xC3\xBC.csv", "0,0\n1,0\n1,1\n0,1\n");
   write("p\xFE.csv", "0,0\n2,0\n2,2\n0,2\n");

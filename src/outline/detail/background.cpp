@@ -14,6 +14,8 @@ namespace {
 constexpr double kFollows = 0.04;
 /// A surface is worth its terms if this much more of the picture follows it than follows one colour.
 constexpr double kWorthASurface = 0.05;
+/// The frame is nearer to a surface than to one colour by this factor, where the light does change.
+constexpr double kNearer = 0.8;
 /// Rounds in which what follows a surface is chosen and the surface fitted to it again.
 constexpr int kRounds = 12;
 /// Share of the frame that a first surface is fitted to: the rest may be pieces.
@@ -40,6 +42,14 @@ double share_that_follows(const cv::Mat& image, const Background& background, co
     return distance(image, background, place) < kFollows;
   });
   return static_cast<double>(follows) / static_cast<double>(places.size());
+}
+
+/// Median distance of the places' colours from the background's.
+double typical_distance(const cv::Mat& image, const Background& background, const Places& places) {
+  std::vector<double> distances;
+  distances.reserve(places.size());
+  for (const cv::Point& place : places) distances.push_back(distance(image, background, place));
+  return median(distances);
 }
 
 /// The given share of places, those that follow the background best.
@@ -152,6 +162,8 @@ Background::Background(const cv::Mat& image) : size_(image.size()) {
   if (share_that_follows(image, surface, frame) < kTrusted * share_that_follows(image, *this, frame))
     return;  // it has grown into the pieces
   if (share_that_follows(image, surface, all) < of_one_colour + kWorthASurface) return;
+  // Between a background of one colour and pale pieces on it, a surface follows both, but neither well.
+  if (typical_distance(image, surface, frame) > kNearer * typical_distance(image, *this, frame)) return;
   surface.find_extremes(frame);
   *this = surface;
 }

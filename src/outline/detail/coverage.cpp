@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "outline/detail/background.hpp"
 #include "outline/detail/foreground.hpp"
+#include "outline/detail/picture_edges.hpp"
 
 namespace rejoin::outline::detail {
 namespace {
@@ -119,7 +120,8 @@ double share_of_frame_above(const cv::Mat& field, double level) {
   return static_cast<double>(above) / static_cast<double>(frame.size());
 }
 
-Coverage coverage_from_background(const cv::Mat& image, const std::string& path) {
+Coverage coverage_from_background(cv::Mat& image, const std::string& path) {
+  const std::string edges = paint_over_edges(image);
   const Background background(image);
   const cv::Mat distance = distance_from(background, image);
   double top = 0.0;
@@ -138,6 +140,7 @@ Coverage coverage_from_background(const cv::Mat& image, const std::string& path)
   Coverage result{field_of(distance, found.mask), distance, {}};
   result.field.setTo(0.0, found.shadow);
   result.distance.setTo(0.0, found.shadow);
+  if (!edges.empty()) result.notes.push_back(edges);
   if (!background.plain()) {
     constexpr double kAsBright = 0.995;  // a change of colour alone
     const bool darker = background.darkest() < kAsBright;
@@ -151,7 +154,7 @@ Coverage coverage_from_background(const cv::Mat& image, const std::string& path)
 
 }  // namespace
 
-Coverage coverage(const cv::Mat& image, const std::string& path) {
+Coverage coverage(cv::Mat& image, const std::string& path) {
   if (image.channels() == 3) return coverage_from_background(image, path);
   cv::Mat alpha;
   cv::extractChannel(image, alpha, 3);

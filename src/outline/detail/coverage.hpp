@@ -15,9 +15,9 @@ struct Coverage {
 
 /// How much each pixel belongs to a piece.  From alpha where the picture has
 /// transparent pixels; otherwise from the colour's distance to the background (detail::Background).
-/// \param image  CV_32F, 3 or 4 channels, 0..1
+/// \param image  CV_32F, 3 or 4 channels, 0..1; without transparency, lines along its edges are painted over, see paint_over_edges()
 /// \param path   for messages
 /// \throws InputError nothing is opaque, or nothing stands out from the background, or the background is not plain
-Coverage coverage(const cv::Mat& image, const std::string& path);
+Coverage coverage(cv::Mat& image, const std::string& path);
 
 }  // namespace rejoin::outline::detail
