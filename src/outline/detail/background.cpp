@@ -14,8 +14,10 @@ namespace {
 constexpr double kFollows = 0.04;
 /// A surface is worth its terms if this much more of the picture follows it than follows one colour.
 constexpr double kWorthASurface = 0.05;
-/// The frame is nearer to a surface than to one colour by this factor, where the light does change.
+/// This much, if the frame is not nearer to it by that factor, as where a lens darkens the corners alone; not if it is farther by the other.
+constexpr double kWorthNoNearer = 0.2;
 constexpr double kNearer = 0.8;
+constexpr double kFarther = 1.1;
 /// Rounds in which what follows a surface is chosen and the surface fitted to it again.
 constexpr int kRounds = 12;
 /// Share of the frame that a first surface is fitted to: the rest may be pieces.
@@ -161,9 +163,11 @@ Background::Background(const cv::Mat& image) : size_(image.size()) {
   }
   if (share_that_follows(image, surface, frame) < kTrusted * share_that_follows(image, *this, frame))
     return;  // it has grown into the pieces
-  if (share_that_follows(image, surface, all) < of_one_colour + kWorthASurface) return;
-  // Between a background of one colour and pale pieces on it, a surface follows both, but neither well.
-  if (typical_distance(image, surface, frame) > kNearer * typical_distance(image, *this, frame)) return;
+  // Between a background of one colour and pale pieces on it, a surface follows both, but the frame no better.
+  const double of_frame = typical_distance(image, surface, frame) / typical_distance(image, *this, frame);
+  if (of_frame > kFarther) return;
+  const double worth = of_frame < kNearer ? kWorthASurface : kWorthNoNearer;
+  if (share_that_follows(image, surface, all) < of_one_colour + worth) return;
   surface.find_extremes(frame);
   *this = surface;
 }
