@@ -158,6 +158,10 @@ double Joint::tolerance() const {
   return sides_->lengths().tolerance;
 }
 
+double Joint::thickness() const {
+  return sides_->lengths().thickness;
+}
+
 Rigid Joint::align(const Rigid& start, const AlignOptions& options) const {
   const detail::JointSides& s = *sides_;
   const detail::JointLengths& l = s.lengths();

@@ -68,6 +68,9 @@ class Joint {
   /// contact_tolerance() of the two.
   double tolerance() const;
 
+  /// Of the thinner wall, mesh units; 0 if not both pieces are thin.
+  double thickness() const;
+
  private:
   std::unique_ptr<const detail::JointSides> sides_;
   std::unique_ptr<const detail::JointSides> exchanged_;

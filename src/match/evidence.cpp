@@ -338,9 +338,13 @@ double share_of(double touching, double shared, const Evidence& evidence) {
   return all > 0 ? touching / all : 0.0;
 }
 
+}  // namespace
+
 double touching_share(const Evidence& evidence) {
   return share_of(evidence.contact_area, evidence.shared_area, evidence);
 }
+
+namespace {
 
 /// What leaves of the shape's information what it is worth, each 0 to 1.
 struct Reserves {

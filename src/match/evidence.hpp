@@ -58,6 +58,9 @@ double strength(const Evidence& evidence);
 /// What takes most from the strength that the shape would have, for users; empty if nothing takes half of it.
 std::string objection(const Evidence& evidence);
 
+/// Of what lies over the other surface or inside the other body, the share that touches, 0..1.
+double touching_share(const Evidence& evidence);
+
 /// The evidence with less information where too little is left of it scale by scale, as where smooth surfaces fit each other loosely.
 /// \param share  Joint::share_by_scale()
 /// \source docs/scoring.md

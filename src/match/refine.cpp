@@ -15,6 +15,7 @@ constexpr std::size_t kEvenIfCancelled = 6;
 constexpr std::array kTighter{0.7, 0.5, 0.35};  // reaches, tolerances
 constexpr double kUnbacked = 0.9;               // share of the contact
 constexpr double kSkin = 4.0;                   // patches: less goes on at wrong poses, too
+constexpr double kLoose = 0.82;                 // of what lies over the other surface, what touches
 constexpr double kNoLimit = -std::numeric_limits<double>::infinity();
 
 void sort_by_rank(std::vector<Hypothesis>& list) {
@@ -120,10 +121,15 @@ bool may_be_walls(const Evidence& evidence) {
   return evidence.unbacked_area > kUnbacked * evidence.contact_area && evidence.continuation < kSkin;
 }
 
+bool lies_loosely(const Evidence& evidence) {
+  return touching_share(evidence) < kLoose && evidence.continuation < kSkin;
+}
+
 Evidence weigh(const Evidence& evidence, const Joint& joint, const Rigid& pose) {
   if (strength(evidence) <= 0.0) return evidence;
   Evidence told = told_by_scale(evidence, joint.share_by_scale(pose));
-  if (may_be_walls(told)) {
+  const bool solid = joint.thickness() <= 0.0;
+  if (may_be_walls(told) || (solid && lies_loosely(told))) {
     const double part = kEven / std::max(kEven, strength(told));
     told.information *= part;
     told.near_information *= part;

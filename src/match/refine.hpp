@@ -50,8 +50,12 @@ void tighten(std::vector<Hypothesis>& list, const Joint& joint, const Fragment& 
 /// sherds that were scanned from one side.
 bool may_be_walls(const Evidence& evidence);
 
+/// Whether much of what lies over the other surface does not touch it, and no skin goes on across the border of the contact: solid pieces
+/// with rounded outsides lie in each other's hollows like that.
+bool lies_loosely(const Evidence& evidence);
+
 /// The evidence of a pose with less information where it would say too much: where only large, smooth shape agrees, loosely
-/// (told_by_scale()), and where what touches may be walls: such a joint is at most as likely as not.
+/// (told_by_scale()), and where what touches may be walls, or solid pieces lie loosely on each other: such a joint is at most as likely as not.
 /// \param evidence  joint.agreed_evidence(pose)
 /// \source docs/scoring.md
 Evidence weigh(const Evidence& evidence, const Joint& joint, const Rigid& pose);

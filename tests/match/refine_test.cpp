@@ -190,5 +190,21 @@ TEST(Refine, WhatHasNothingBehindItOnEitherSideMayBeWalls) {
   EXPECT_LE(weighed_truth(pair, joint).strength, kEven);
 }
 
+TEST(Refine, SolidPiecesThatLieLooselyNeedSkinThatGoesOn) {
+  const Pair pair = make_pair(6);
+  const Joint joint(pair.a, pair.b);
+  Evidence evidence = joint.agreed_evidence(pair.truth);
+  ASSERT_GT(evidence.continuation, 4.0);
+  const auto score = [&] { return score_of(strength(weigh(evidence, joint, pair.truth))); };
+  EXPECT_GT(score(), kSure);
+  evidence.shared_area = evidence.contact_area / 0.75;
+  EXPECT_GT(score(), kSure);
+  evidence.continuation = 1.0;
+  EXPECT_LE(score(), 0.5);
+  evidence.shared_area =
+      evidence.contact_area / 0.95;  // inside an object third pieces lie all around a contact
+  EXPECT_GT(score(), kSure);
+}
+
 }  // namespace
 }  // namespace rejoin::match

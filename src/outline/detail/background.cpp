@@ -15,7 +15,7 @@ constexpr double kFollows = 0.04;
 /// A surface is worth its terms if this much more of the picture follows it than follows one colour.
 constexpr double kWorthASurface = 0.05;
 /// This much, if the frame is not nearer to it by that factor, as where a lens darkens the corners alone; not if it is farther by the other.
-constexpr double kWorthNoNearer = 0.2;
+constexpr double kWorthNoNearer = 0.1;
 constexpr double kNearer = 0.8;
 constexpr double kFarther = 1.1;
 /// Rounds in which what follows a surface is chosen and the surface fitted to it again.
