@@ -36,14 +36,14 @@ bool fills_hole(const JoinCandidate& candidate, const Silhouette& a, const Silho
 /// Where on A and on B a candidate's pieces meet.
 std::pair<Stretch, Stretch> stretches(const JoinCandidate& candidate, double perimeter_a,
                                       double perimeter_b) {
-  const auto& [begin_a, begin_b, length, hole_a, hole_b] = candidate.boundary;
-  if (hole_a > 0 || hole_b > 0) return {};
+  const Boundary& boundary = candidate.boundary;
+  if (boundary.hole_a > 0 || boundary.hole_b > 0) return {};
   const auto share = [&](double begin, double perimeter) {
     const double from = begin / perimeter;
-    return Stretch{from - std::floor(from), length / perimeter};
+    return Stretch{from - std::floor(from), boundary.length / perimeter};
   };
-  return {share(begin_a, perimeter_a),
-          share(candidate.pose.flipped ? begin_b : begin_b - length, perimeter_b)};
+  const double begin_b = candidate.pose.flipped ? boundary.begin_b : boundary.begin_b - boundary.length;
+  return {share(boundary.begin_a, perimeter_a), share(begin_b, perimeter_b)};
 }
 
 std::vector<double> perimeters(const std::vector<Piece>& pieces) {

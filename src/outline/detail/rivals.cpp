@@ -50,6 +50,7 @@ std::vector<AssemblyRival> rivals_of(const Link& link, const LinkedPieces& piece
     }
   }
   std::vector<AssemblyRival> rivals;
+  rivals.reserve(best.size());
   for (const auto& [names, score] : best) rivals.push_back({names.first, names.second, score});
   std::ranges::stable_sort(rivals, std::ranges::greater(), &AssemblyRival::score);
   return rivals;
