@@ -122,6 +122,9 @@ class OutlineAssembleCommand final : public Command {
     add_outline_method(app, method_);
     add_calibration(app, calibration_);
     add_dust(app, pictures_);
+    app.add_flag("--keep-rectangles", pictures_.keep_rectangles,
+                 "keep rectangles beside other pieces, as of rulers")
+        ->group("Input");
     app.add_option("--leave-out", left_out_, "a piece that is none, as pieces.png names it; repeatable")
         ->type_name("NAME")
         ->allow_extra_args(false)
@@ -137,7 +140,10 @@ class OutlineAssembleCommand final : public Command {
     outline::PieceSet set = load_folder(folder_, pictures_, console, context);
     leave_out(set);
     const std::size_t count = set.pieces.size();
-    if (count < 2) throw InputError(folder_, "holds one piece only", "give a folder of pieces");
+    if (count < 2)
+      throw InputError(folder_,
+                       set.left_out.empty() ? "holds one piece only" : "has less than two pieces left",
+                       "give a folder of pieces");
     search_pairs_in_full(count * (count - 1) / 2, multiscale);
     check_calibration(calibration_, multiscale, set.pieces, console);
     check_holes(method_, set.pieces, console);
@@ -182,7 +188,11 @@ class OutlineAssembleCommand final : public Command {
   }
 
   void leave_out(outline::PieceSet& set) const {
+    const auto known = [](const std::vector<outline::LeftOut>& list, const std::string& name) {
+      return std::ranges::find(list, name, &outline::LeftOut::name) != list.end();
+    };
     for (const std::string& name : left_out_) {
+      if (known(set.left_out, name) || known(set.repeated, name)) continue;
       const auto piece = std::ranges::find(set.pieces, name, &outline::Piece::name);
       if (piece == set.pieces.end())
         throw UsageError("--leave-out", fmt::format("'{}' names no piece of the folder", name),

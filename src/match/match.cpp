@@ -110,6 +110,21 @@ bool axes_may_agree(const Rigid& pose, const Options& options) {
   return axes_agree(pose, options, options.tolerance_deg + 10.0);
 }
 
+/// Leaves out what the alignment turned off the material's axes, and tells the best of it that may be a join.
+void keep_axes(std::vector<Hypothesis>& hypotheses, const Options& options,
+               std::vector<std::string>& warnings) {
+  const auto off = [&](const Hypothesis& h) { return !axes_agree(h.pose, options, options.tolerance_deg); };
+  const auto best = std::ranges::find_if(hypotheses, off);
+  if (best == hypotheses.end()) return;
+  if (score_of(best->strength) >= kPossible) {
+    warnings.push_back(fmt::format(
+        "a pose with a score of {:.2f} was left out: the material's axes are more than {:.3g} degrees "
+        "off each other there (--tolerance)",
+        score_of(best->strength), options.tolerance_deg));
+  }
+  std::erase_if(hypotheses, off);
+}
+
 std::vector<Hypothesis> run_sweep(const Fragment& a, const Fragment& b, const Options& options,
                                   const std::optional<Near>& near, const Context& context, Result& result) {
   doubt_directions(a, options.directions_a, options.tolerance_deg, result.warnings);
@@ -253,12 +268,10 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
   if (near && !context.cancelled()) keep_laid(hypotheses, joint, a, b, *near, rounds, options, context);
   if (!context.cancelled()) tighten(hypotheses, joint, b, std::min(a.diameter, b.diameter));
   if (near) keep_near(hypotheses, *near);
-  if (options.search == Search::Sweep) {
-    std::erase_if(hypotheses,
-                  [&](const Hypothesis& h) { return !axes_agree(h.pose, options, options.tolerance_deg); });
-  }
   weigh(hypotheses, joint);
-  settle(hypotheses, joint, b, std::min(a.diameter, b.diameter));
+  if (!context.cancelled()) settle(hypotheses, joint, b, std::min(a.diameter, b.diameter));
+  if (near) keep_near(hypotheses, *near);
+  if (options.search == Search::Sweep) keep_axes(hypotheses, options, result.warnings);
   clock.lap("align");
 
   context.report("verify", 0.8);

@@ -162,7 +162,9 @@ std::size_t pieces_inside(const fs::path& folder) {
   for (auto entry = fs::directory_iterator(folder, problem); !problem && entry != fs::directory_iterator();
        entry.increment(problem)) {
     const fs::path& path = entry->path();
-    if (has_piece_name(path.string()) && !is_beside_the_pieces(path.filename().string(), results)) ++count;
+    if (has_piece_name(path.string()) && extension_of(path) != ".txt" &&
+        !is_beside_the_pieces(path.filename().string(), results))
+      ++count;
   }
   return count;
 }
@@ -270,8 +272,9 @@ PieceSet read_folder(const std::string& folder, const ExtractOptions& options, c
   for (auto entry = fs::directory_iterator(folder, problem); !problem && entry != fs::directory_iterator();
        entry.increment(problem)) {
     std::error_code ignored;
-    if (!has_piece_name(entry->path().string()) && fs::is_directory(entry->path(), ignored) &&
-        pieces_inside(entry->path()) > 0)
+    const std::string name = entry->path().filename().string();
+    if (name.starts_with('.') || name == "__MACOSX") continue;
+    if (!has_piece_name(name) && fs::is_directory(entry->path(), ignored) && pieces_inside(entry->path()) > 0)
       folders.push_back(entry->path().string());
     if (is_other_picture(entry->path())) others.push_back(entry->path());
     if (!has_piece_name(entry->path().string())) continue;
@@ -287,11 +290,23 @@ PieceSet read_folder(const std::string& folder, const ExtractOptions& options, c
                     counted(results.size(), "picture"), *std::min_element(results.begin(), results.end())),
         "if they are pieces, rename them");
   }
+  std::sort(folders.begin(), folders.end());
+  std::sort(others.begin(), others.end());
   if (files.empty()) {
-    throw InputError(folder, "holds no picture and no outline",
-                     "put png, jpg, tif, csv, svg or geojson files there");
+    const std::string what = "holds no picture and no outline";
+    if (!folders.empty())
+      throw InputError(folder, what + ", but a folder with some, which is not looked into",
+                       "give " + folders.front());
+    if (!others.empty())
+      throw InputError(folder, what + " of a kind that is read, but " + others.front().filename().string(),
+                       "save such pictures as png, jpg or tif");
+    throw InputError(folder, what, "put png, jpg, tif, csv, svg or geojson files there");
   }
   std::sort(files.begin(), files.end());
+  // Raw pictures that lie beside what was made of them.
+  std::erase_if(others, [&](const fs::path& other) {
+    return std::ranges::any_of(files, [&](const fs::path& file) { return file.stem() == other.stem(); });
+  });
   PieceSet all;
   if (!results.empty()) {
     all.notes.push_back(fmt::format("{}: {} that rejoin writes as a result ({}) {} no piece and left out",
@@ -299,14 +314,12 @@ PieceSet read_folder(const std::string& folder, const ExtractOptions& options, c
                                     *std::min_element(results.begin(), results.end()),
                                     results.size() == 1 ? "is" : "are"));
   }
-  std::sort(folders.begin(), folders.end());
   for (const std::string& inside : folders) {
     all.notes.push_back(fmt::format(
         "{}: is a folder with {} of pictures or outlines and is not looked into; move them up, or "
         "give that folder alone",
         inside, counted(pieces_inside(inside), "file")));
   }
-  std::sort(others.begin(), others.end());
   for (const fs::path& file : others) {
     all.unusable.push_back(
         {file.filename().string(),
@@ -321,7 +334,7 @@ PieceSet read_folder(const std::string& folder, const ExtractOptions& options, c
   const auto doubt = doubt_resolutions(usable);
   if (doubt) all.notes.push_back(*doubt);
   if (const auto mirrored = doubt_axes(all.pieces)) all.notes.push_back(*mirrored);
-  detail::take_out_rectangles(all);
+  if (!options.keep_rectangles) detail::take_out_rectangles(all);
   detail::take_out_repeats(all);
   if (all.pieces.empty()) throw InputError(folder, "holds nothing that can be used", all.unusable[0].reason);
   return all;

@@ -66,6 +66,22 @@ TEST(OutlineAssemble, TellsEveryFileThatItWrites) {
   EXPECT_NE(done.out.find("wrote " + file + "\n"), std::string::npos) << done.out;
 }
 
+TEST(OutlineAssemble, LeavesOutWhatTheUserNames) {
+  const BrokenShapes shapes;
+  const std::string file = shapes / "left_out.json";
+  const std::string name = shapes.truth["fragments"].begin().key();
+  const Finished done =
+      run({"outline", "assemble", shapes.pieces, "--json", file, "--leave-out", name, "--leave-out", name});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const json assembly = json::parse(read_file(file));
+  EXPECT_FALSE(assembly["fragments"].contains(name));
+  ASSERT_EQ(assembly["left_out"].size(), 1U);
+  EXPECT_EQ(assembly["left_out"][0]["name"], name);
+  const Finished wrong = run({"outline", "assemble", shapes.pieces, "--leave-out", "ruler.csv"});
+  EXPECT_NE(wrong.exit_code, 0);
+  EXPECT_NE(wrong.err.find("'ruler.csv' names no piece"), std::string::npos) << wrong.err;
+}
+
 TEST(OutlineAssemble, PicturesOfAnEarlierRunDoNotStay) {
   const BrokenShapes shapes;
   const std::string pictures = shapes / "pictures";

@@ -71,6 +71,24 @@ TEST(Extract, UnevenLightIsEvenedOutWithANote) {
   EXPECT_NE(found.notes[0].find("evened out"), std::string::npos) << found.notes[0];
 }
 
+// More than half of the frame is as bright as the scanner can tell.
+TEST(Extract, UnevenLightThatIsClippedIsEvenedOut) {
+  const Folder folder;
+  cv::Mat image(600, 800, CV_8UC3);
+  for (int y = 0; y < image.rows; ++y) {
+    for (int x = 0; x < image.cols; ++x) {
+      const double u = x / 400.0 - 1.0;
+      const double light = 255.0 * (1.1 - 0.3 * u * u);
+      image.at<cv::Vec3b>(y, x) = cv::Vec3b::all(static_cast<unsigned char>(std::min(255.0, light)));
+    }
+  }
+  cv::circle(image, {400, 300}, 120, cv::Scalar(60, 90, 140), cv::FILLED, cv::LINE_AA);
+  cv::imwrite(folder.file("lid.png"), image);
+  const Extraction found = extract(folder.file("lid.png"));
+  ASSERT_EQ(found.pieces.size(), 1U);
+  EXPECT_NEAR(signed_area(found.pieces[0].points), M_PI * 120.5 * 120.5, 500.0);
+}
+
 TEST(Extract, BackgroundThatChangesItsHueAloneIsNotCalledDarker) {
   const Folder folder;
   cv::Mat image = painted(disc({150, 130}), {0.1, 0.1, 0.1}, {0.6, 0.6, 0.6}, 255, CV_8UC3);
@@ -135,7 +153,7 @@ TEST(Extract, ShadowIsNoPartOfThePiece) {
 TEST(Extract, BedOfAScannerInADarkFrameIsToldAsARectangle) {
   const Folder folder;
   cv::Mat image(200, 300, CV_8UC3, cv::Scalar(20, 20, 20));
-  cv::rectangle(image, {12, 12}, {287, 187}, cv::Scalar(230, 230, 230), cv::FILLED);
+  cv::rectangle(image, {8, 8}, {291, 191}, cv::Scalar(230, 230, 230), cv::FILLED);
   cv::circle(image, {140, 90}, 50, cv::Scalar(60, 90, 140), cv::FILLED);
   cv::imwrite(folder.file("bed.png"), image);
   const Extraction found = extract(folder.file("bed.png"));

@@ -66,6 +66,27 @@ TEST_F(PictureBorder, LinesAlongTwoOfItsEdgesAreLeftOut) {
   }
 }
 
+// The background beside pieces that nearly fill the picture is no line along its edges.
+TEST_F(PictureBorder, NarrowMarginsAroundLargePiecesStay) {
+  const std::string path = (folder_ / "scan.png").string();
+  for (const int margin : {10, 30, 45}) {
+    cv::Mat image(1000, 1400, CV_8UC3, cv::Scalar(30, 30, 30));
+    cv::rectangle(image, cv::Rect(margin, margin, 660 - margin, 1000 - 2 * margin), cv::Scalar(235, 235, 235),
+                  cv::FILLED);
+    cv::rectangle(image, cv::Rect(740, margin, 660 - margin, 1000 - 2 * margin), cv::Scalar(235, 235, 235),
+                  cv::FILLED);
+    for (const int wide : {0, 80}) {  // and with more room on the right
+      cv::Mat wider;
+      cv::copyMakeBorder(image, wider, 0, 0, 0, wide, cv::BORDER_CONSTANT, cv::Scalar(30, 30, 30));
+      cv::imwrite(path, wider);
+      const Extraction found = extract(path);
+      ASSERT_EQ(found.pieces.size(), 2U) << margin << " " << wide;
+      const double area = (660.0 - margin) * (1000.0 - 2.0 * margin);
+      EXPECT_NEAR(signed_area(found.pieces[0].points), area, 10.0) << margin << " " << wide;
+    }
+  }
+}
+
 TEST_F(PictureBorder, LightThatFallsOffAndPiecesAtTheBorderAreNoLinesAlongIt) {
   cv::Mat image(1000, 1200, CV_32FC3);
   for (int y = 0; y < image.rows; ++y) {

@@ -463,14 +463,35 @@ cv::Mat with_ruler() {
 
 TEST_F(Read, RulersBesidePiecesAreLeftOutButNotAlone) {
   const cv::Mat picture = with_ruler();
+  cv::imwrite((folder_ / "alone.png").string(), blot(60));
   cv::imwrite((folder_ / "both.png").string(), picture);
   const PieceSet set = read_folder(folder_.string());
-  ASSERT_EQ(set.pieces.size(), 1U);
-  EXPECT_EQ(set.pieces[0].name, "both.png");  // the larger
+  ASSERT_EQ(set.pieces.size(), 2U);
+  EXPECT_EQ(set.pieces[1].name, "both.png");  // the larger
   ASSERT_EQ(set.left_out.size(), 1U);
   EXPECT_EQ(set.left_out[0].name, "both.png#2");
+  ExtractOptions keeping;
+  keeping.keep_rectangles = true;
+  EXPECT_EQ(read_folder(folder_.string(), keeping).pieces.size(), 3U);
   cv::imwrite((folder_ / "both.png").string(), picture(cv::Rect(0, 600, 1200, 300)));
-  EXPECT_EQ(read_folder(folder_.string()).pieces.size(), 1U);
+  EXPECT_EQ(read_folder(folder_.string()).pieces.size(), 2U);
+}
+
+// Two sides of every quarter were torn, by a few pixels, and two are the page's.
+TEST_F(Read, TornQuartersOfAPageAreNoRulers) {
+  cv::Mat page(1100, 1500, CV_8UC3, cv::Scalar(20, 20, 20));
+  cv::rectangle(page, cv::Rect(60, 60, 1380, 980), cv::Scalar(240, 240, 240), cv::FILLED);
+  for (int k = 0; k < 1500; ++k) {
+    const int y = 550 + static_cast<int>(3.0 * std::sin(0.05 * k) + 2.0 * std::sin(0.31 * k));
+    cv::line(page, {k, y - 8}, {k, y + 8}, cv::Scalar(20, 20, 20));
+    const int x = 750 + static_cast<int>(3.0 * std::cos(0.06 * k) + 2.0 * std::cos(0.37 * k));
+    if (k < 1100) cv::line(page, {x - 8, k}, {x + 8, k}, cv::Scalar(20, 20, 20));
+  }
+  cv::GaussianBlur(page, page, cv::Size(), 0.7);
+  cv::imwrite((folder_ / "page.png").string(), page);
+  cv::imwrite((folder_ / "another.png").string(), blot(60));
+  cv::imwrite((folder_ / "third.png").string(), blot(50));
+  EXPECT_EQ(read_folder(folder_.string()).pieces.size(), 6U);
 }
 
 TEST_F(Read, WhatWasCutOutOfAPieceStays) {

@@ -18,6 +18,8 @@ constexpr double kWorthASurface = 0.05;
 constexpr double kWorthNoNearer = 0.1;
 constexpr double kNearer = 0.8;
 constexpr double kFarther = 1.1;
+/// Less than any noise, 0..1 a channel.
+constexpr double kNoNoise = 0.002;
 /// Rounds in which what follows a surface is chosen and the surface fitted to it again.
 constexpr int kRounds = 12;
 /// Share of the frame that a first surface is fitted to: the rest may be pieces.
@@ -164,9 +166,12 @@ Background::Background(const cv::Mat& image) : size_(image.size()) {
   if (share_that_follows(image, surface, frame) < kTrusted * share_that_follows(image, *this, frame))
     return;  // it has grown into the pieces
   // Between a background of one colour and pale pieces on it, a surface follows both, but the frame no better.
-  const double of_frame = typical_distance(image, surface, frame) / typical_distance(image, *this, frame);
-  if (of_frame > kFarther) return;
-  const double worth = of_frame < kNearer ? kWorthASurface : kWorthNoNearer;
+  // Where the frame has one colour without any noise it is as bright as the scanner can tell, and says nothing of the light.
+  const double of_plain = typical_distance(image, *this, frame);
+  const double of_surface = typical_distance(image, surface, frame);
+  const bool clipped = of_plain < kNoNoise;
+  if (!clipped && of_surface > kFarther * of_plain) return;
+  const double worth = clipped || of_surface < kNearer * of_plain ? kWorthASurface : kWorthNoNearer;
   if (share_that_follows(image, surface, all) < of_one_colour + worth) return;
   surface.find_extremes(frame);
   *this = surface;

@@ -3,10 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <opencv2/core.hpp>
-#include <utility>
 #include <vector>
 
 #include "core/median.hpp"
@@ -63,32 +61,54 @@ bool is_other(const cv::Mat& line, const cv::Vec3f& colour) {
   return share_of_others(line, colour) > kWhole;
 }
 
-/// How many lines along an edge are of another colour than those behind; 0: none, or they go on too far, or the colour changes slowly.
-int other_lines(const cv::Mat& image, Edge edge) {
+/// Lines along an edge of another colour than what lies behind.
+struct Band {
+  Edge edge;
+  const char* name;
+  int lines = 0;  ///< 0: there are none, or they go on too far, or the colour changes slowly
+  cv::Vec3f behind;
+};
+
+Band band_at(const cv::Mat& image, Edge edge, const char* name) {
+  Band band{edge, name, 0, {}};
   const int most = std::min(kWidest, static_cast<int>(kWidestShare * std::min(image.rows, image.cols)));
   const cv::Mat inside = line_at(image, edge, 2 * most);
-  const cv::Vec3f background = middle_colour(inside);
-  if (share_of_others(inside, background) > kPieces) return 0;
+  band.behind = middle_colour(inside);
+  if (share_of_others(inside, band.behind) > kPieces) return band;
   int lines = 0;
-  while (lines < most && is_other(line_at(image, edge, lines), background)) ++lines;
-  if (lines == 0 || lines == most) return 0;
+  while (lines < most && is_other(line_at(image, edge, lines), band.behind)) ++lines;
+  if (lines == 0 || lines == most) return band;
   // A colour that changes slowly is light.
-  const cv::Vec3f behind = middle_colour(line_at(image, edge, lines + kSoft));
-  return is_other(line_at(image, edge, std::max(0, lines - 1 - kSoft)), behind) ? lines + kSoft : 0;
+  const cv::Vec3f next = middle_colour(line_at(image, edge, lines + kSoft));
+  if (is_other(line_at(image, edge, std::max(0, lines - 1 - kSoft)), next)) band.lines = lines + kSoft;
+  return band;
+}
+
+/// Whether what lies behind all bands is what the other edges have: else it is the pieces, and the bands are the background beside them.
+bool lie_before_background(const cv::Mat& image, const std::vector<Band>& bands) {
+  const auto is_band = [](const Band& band) { return band.lines > 0; };
+  if (std::ranges::all_of(bands, is_band)) return false;
+  for (const Band& free : bands) {
+    if (is_band(free)) continue;
+    const cv::Vec3f outermost = middle_colour(line_at(image, free.edge, 0));
+    for (const Band& band : bands)
+      if (is_band(band) && cv::norm(outermost - band.behind) > static_cast<double>(kOther)) return false;
+  }
+  return true;
 }
 
 }  // namespace
 
 std::string paint_over_edges(cv::Mat& image) {
-  constexpr std::array<std::pair<Edge, const char*>, 4> kEdges{
-      {{Edge::Upper, "upper"}, {Edge::Right, "right"}, {Edge::Lower, "lower"}, {Edge::Left, "left"}}};
+  const std::vector<Band> bands{band_at(image, Edge::Upper, "upper"), band_at(image, Edge::Right, "right"),
+                                band_at(image, Edge::Lower, "lower"), band_at(image, Edge::Left, "left")};
+  if (!lie_before_background(image, bands)) return {};
   std::string told;
-  for (const auto& [edge, name] : kEdges) {
-    const int lines = other_lines(image, edge);
-    if (lines == 0) continue;
-    const cv::Mat behind = line_at(image, edge, lines);
-    for (int k = 0; k < lines; ++k) behind.copyTo(line_at(image, edge, k));
-    told += fmt::format("{}{} ({} pixels)", told.empty() ? "" : ", ", name, lines);
+  for (const Band& band : bands) {
+    if (band.lines == 0) continue;
+    const cv::Mat behind = line_at(image, band.edge, band.lines);
+    for (int k = 0; k < band.lines; ++k) behind.copyTo(line_at(image, band.edge, k));
+    told += fmt::format("{}{} ({} pixels)", told.empty() ? "" : ", ", band.name, band.lines);
   }
   if (told.empty()) return {};
   return fmt::format("lines of another colour along the picture's edges are left out: {}", told);

@@ -14,29 +14,62 @@
 namespace rejoin::outline::detail {
 namespace {
 
-constexpr double kRough = 0.01;          // of the perimeter: corners are looked for this roughly
-constexpr double kLean = 0.0875;         // cosine of the corners' angles, at most: 5 degrees
-constexpr double kCorner = 0.1;          // share of a side at its ends that may be rounded
-constexpr double kStraight = 0.0007;     // of the perimeter, rms distance from the sides, at most
-constexpr double kStraightPixels = 1.0;  // or that
-constexpr double kLeastOfHole = 0.5;     // area of a hole that a rectangle may come from, share of its own
-constexpr std::size_t kNamed = 3;        // of those that are left out
+constexpr double kRough = 0.01;       // of the perimeter: corners are looked for this roughly
+constexpr double kLean = 0.0875;      // cosine of the corners' angles, at most: 5 degrees
+constexpr double kCorner = 0.1;       // share of a side at its ends that may be rounded
+constexpr double kStraight = 0.8;     // rms distance of a side's points from an even bow, pixels, at most
+constexpr int kFewest = 60;           // points of a side: of smaller outlines nothing is told
+constexpr double kLeastOfHole = 0.5;  // area of a hole that a rectangle may come from, share of its own
+constexpr std::size_t kNamed = 3;     // of those that are left out
 
 using Corners = std::array<glm::dvec2, 4>;
 
-/// Squared distance of a point from the nearest side; negative near its ends.
-double squared_distance(const glm::dvec2& p, const Corners& corners) {
-  double nearest = std::numeric_limits<double>::infinity();
-  bool at_corner = false;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const glm::dvec2 side = corners[(k + 1) % 4] - corners[k];
-    const double along = glm::dot(p - corners[k], side) / glm::dot(side, side);
-    const glm::dvec2 off = p - corners[k] - std::clamp(along, 0.0, 1.0) * side;
-    if (glm::dot(off, off) >= nearest) continue;
-    nearest = glm::dot(off, off);
-    at_corner = along < kCorner || along > 1.0 - kCorner;
+/// The points beside a side but for its ends: along it from -1 to 1, and their distances from it.
+struct Side {
+  std::vector<double> along;
+  std::vector<double> off;
+};
+
+std::array<Side, 4> sides_of(const std::vector<glm::dvec2>& border, const Corners& corners) {
+  std::array<Side, 4> sides;
+  for (const glm::dvec2& p : border) {
+    double nearest = std::numeric_limits<double>::infinity();
+    std::size_t best = 0;
+    double best_along = 0.0;
+    double best_off = 0.0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const glm::dvec2 side = corners[(k + 1) % 4] - corners[k];
+      const double along = glm::dot(p - corners[k], side) / glm::dot(side, side);
+      const double distance = glm::distance(p, corners[k] + std::clamp(along, 0.0, 1.0) * side);
+      if (distance >= nearest) continue;
+      nearest = distance;
+      best = k;
+      best_along = along;
+      best_off = (side.x * (p.y - corners[k].y) - side.y * (p.x - corners[k].x)) / glm::length(side);
+    }
+    if (best_along < kCorner || best_along > 1.0 - kCorner) continue;
+    sides[best].along.push_back(2.0 * best_along - 1.0);
+    sides[best].off.push_back(best_off);
   }
-  return at_corner ? -1.0 : nearest;
+  return sides;
+}
+
+/// Whether a side is straight, or evenly bowed as by a lens.
+bool is_straight(const Side& side) {
+  const auto count = static_cast<int>(side.along.size());
+  if (count < kFewest) return false;
+  cv::Mat terms(count, 3, CV_64F);
+  cv::Mat off(count, 1, CV_64F);
+  for (int i = 0; i < count; ++i) {
+    const double t = side.along[static_cast<std::size_t>(i)];
+    terms.at<double>(i, 0) = 1.0;
+    terms.at<double>(i, 1) = t;
+    terms.at<double>(i, 2) = t * t;
+    off.at<double>(i, 0) = side.off[static_cast<std::size_t>(i)];
+  }
+  cv::Mat factors;
+  cv::solve(terms, off, factors, cv::DECOMP_SVD);
+  return cv::norm(terms * factors - off) < kStraight * std::sqrt(static_cast<double>(count));
 }
 
 bool is_square_cornered(const Corners& corners) {
@@ -71,16 +104,7 @@ bool is_rectangle(const Outline& outline) {
   Corners corners;
   for (std::size_t k = 0; k < 4; ++k) corners[k] = {found[k].x, found[k].y};
   if (!is_square_cornered(corners)) return false;
-  double sum = 0.0;
-  std::size_t count = 0;
-  for (const glm::dvec2& p : outline.points) {
-    const double squared = squared_distance(p, corners);
-    if (squared < 0.0) continue;
-    sum += squared;
-    ++count;
-  }
-  const double most = std::max(kStraightPixels, kStraight * length);
-  return count > 0 && sum < most * most * static_cast<double>(count);
+  return std::ranges::all_of(sides_of(outline.points, corners), is_straight);
 }
 
 void take_out_rectangles(PieceSet& set) {
@@ -94,7 +118,7 @@ void take_out_rectangles(PieceSet& set) {
   for (const Piece& piece : set.pieces) {
     if (goes(piece)) names.push_back(piece.name);
   }
-  if (names.empty() || names.size() == set.pieces.size()) return;
+  if (names.empty() || names.size() + 2 > set.pieces.size()) return;  // no two would be left
   std::erase_if(set.pieces,
                 [&](const Piece& piece) { return std::ranges::find(names, piece.name) != names.end(); });
   std::string some;
@@ -102,8 +126,8 @@ void take_out_rectangles(PieceSet& set) {
   if (names.size() > kNamed) some += fmt::format(" and {} more", names.size() - kNamed);
   const bool one = names.size() == 1;
   set.notes.push_back(
-      fmt::format("{} beside other pieces, as of a ruler, a label or a colour card ({}), {} left out; save a "
-                  "picture of it alone if it is a piece",
+      fmt::format("{} beside other pieces, as of a ruler, a label or a colour card ({}), {} left out; "
+                  "--keep-rectangles keeps them",
                   counted(names.size(), "rectangle"), some, one ? "is" : "are"));
   for (const std::string& name : names)
     set.left_out.push_back(
