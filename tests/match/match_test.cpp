@@ -183,6 +183,28 @@ TEST(Match, AsksForDirectionsAndLooksNowhereElse) {
 }
 
 // The walls of a sherd join nothing.
+TEST(Match, LeavesOutAndTellsWhatTheAlignmentTurnedOffTheMaterialsAxes) {
+  const Pair pair = make_pair(2);
+  const glm::dvec3 axis(0, 0, 1);
+  Options options;
+  options.constraint = Constraint::Material;
+  options.material_b = axis;
+  options.material_a = pair.planted.truth.rotation * axis;
+  options.tolerance_deg = 4.0;
+  const Result agreeing = match(pair.a, pair.b, options, Context{});
+  EXPECT_EQ(agreeing.verdict, Verdict::Join);
+  // Off by more than the tolerance, but not by what the search allows for.
+  const glm::dvec3 across = glm::normalize(glm::cross(*options.material_a, glm::dvec3(0.3, 0.5, 0.8)));
+  options.material_a = axis_rotation(across, 7.0 * kDegree) * *options.material_a;
+  const Result off = match(pair.a, pair.b, options, Context{});
+  EXPECT_EQ(off.verdict, Verdict::NoJoin);
+  for (const Candidate& candidate : off.candidates)
+    EXPECT_GT(angle_between(candidate.pose, pair.planted.truth), 2.0 * kDegree);
+  EXPECT_TRUE(std::ranges::any_of(off.warnings, [](const std::string& warning) {
+    return warning.find("the material's axes are more than 4 degrees off each other") != std::string::npos;
+  }));
+}
+
 TEST(Match, TellsOfWallsThatAreAskedFor) {
   const auto thin_half = [](bool below) {
     mesh::Mesh half = testing::half_block(below, 64);
