@@ -10,8 +10,9 @@
 namespace rejoin::outline {
 
 struct ExtractOptions {
-  double dust = 2.0;                   ///< pieces and holes of less are, percent of the largest piece's area
-  bool keep_rectangles = false;  ///< in folders: those that lie beside other pieces in one picture, as rulers do
+  double dust = 2.0;  ///< pieces and holes of less are, percent of the largest piece's area
+  bool keep_rectangles =
+      false;  ///< in folders: those that lie beside other pieces in one picture, as rulers do
   std::size_t max_pixels = 120000000;  ///< larger pictures are refused before they are decoded
 };
 
