@@ -312,8 +312,8 @@ class Look {
     return alike(finder.within(p, 2.0 * near)) || alike(finder.within(2.0F * seam - p, near));
   }
 
-  /// Whether A's wall begins at the seam, in line with a point of B's, but turns by about a right angle there or soon behind, as
-  /// along the edge of a foot: no place of it can be compared.
+  /// Whether A's wall, where B's would go on straight, looks away from it by about a right angle, as along the edge of a foot: no place
+  /// of it can be compared.
   bool turns_away(const glm::vec3& p, const glm::dvec3& normal, const glm::vec3& seam) const {
     const Finder finder = sides_.wall_finder(quick_);
     const auto beyond = finder.within(2.0F * seam - p, kWallNear * lengths_.thickness);
