@@ -6,6 +6,7 @@
 #include <array>
 #include <exception>
 #include <filesystem>
+#include <map>
 #include <new>
 #include <optional>
 #include <regex>
@@ -267,15 +268,18 @@ PieceSet read_folder(const std::string& folder, const ExtractOptions& options, c
   std::error_code problem;
   std::vector<fs::path> files;
   std::vector<fs::path> others;
-  std::vector<std::string> folders;
+  std::map<std::string, std::size_t> folders;  // with how many files of pieces
   std::vector<std::string> results;
   for (auto entry = fs::directory_iterator(folder, problem); !problem && entry != fs::directory_iterator();
        entry.increment(problem)) {
     std::error_code ignored;
     const std::string name = entry->path().filename().string();
     if (name.starts_with('.') || name == "__MACOSX") continue;
-    if (!has_piece_name(name) && fs::is_directory(entry->path(), ignored) && pieces_inside(entry->path()) > 0)
-      folders.push_back(entry->path().string());
+    if (!has_piece_name(name) && fs::is_directory(entry->path(), ignored)) {
+      const std::size_t count = pieces_inside(entry->path());
+      if (count > 0) folders[entry->path().string()] = count;
+      continue;
+    }
     if (is_other_picture(entry->path())) others.push_back(entry->path());
     if (!has_piece_name(entry->path().string())) continue;
     if (!is_beside_the_pieces(entry->path().filename().string(), results)) files.push_back(entry->path());
@@ -290,13 +294,12 @@ PieceSet read_folder(const std::string& folder, const ExtractOptions& options, c
                     counted(results.size(), "picture"), *std::min_element(results.begin(), results.end())),
         "if they are pieces, rename them");
   }
-  std::sort(folders.begin(), folders.end());
   std::sort(others.begin(), others.end());
   if (files.empty()) {
     const std::string what = "holds no picture and no outline";
     if (!folders.empty())
       throw InputError(folder, what + ", but a folder with some, which is not looked into",
-                       "give " + folders.front());
+                       "give " + folders.begin()->first);
     if (!others.empty())
       throw InputError(folder, what + " of a kind that is read, but " + others.front().filename().string(),
                        "save such pictures as png, jpg or tif");
@@ -314,11 +317,11 @@ PieceSet read_folder(const std::string& folder, const ExtractOptions& options, c
                                     *std::min_element(results.begin(), results.end()),
                                     results.size() == 1 ? "is" : "are"));
   }
-  for (const std::string& inside : folders) {
+  for (const auto& [inside, count] : folders) {
     all.notes.push_back(fmt::format(
         "{}: is a folder with {} of pictures or outlines and is not looked into; move them up, or "
         "give that folder alone",
-        inside, counted(pieces_inside(inside), "file")));
+        inside, counted(count, "file")));
   }
   for (const fs::path& file : others) {
     all.unusable.push_back(

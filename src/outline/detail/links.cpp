@@ -1,7 +1,6 @@
 #include "outline/detail/links.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <memory>
 #include <utility>
@@ -33,26 +32,6 @@ bool fills_hole(const JoinCandidate& candidate, const Silhouette& a, const Silho
   return contact.length >= kLeastTouching * border.step * static_cast<double>(border.end);
 }
 
-/// Where on A and on B a candidate's pieces meet.
-std::pair<Stretch, Stretch> stretches(const JoinCandidate& candidate, double perimeter_a,
-                                      double perimeter_b) {
-  const Boundary& boundary = candidate.boundary;
-  if (boundary.hole_a > 0 || boundary.hole_b > 0) return {};
-  const auto share = [&](double begin, double perimeter) {
-    const double from = begin / perimeter;
-    return Stretch{from - std::floor(from), boundary.length / perimeter};
-  };
-  const double begin_b = candidate.pose.flipped ? boundary.begin_b : boundary.begin_b - boundary.length;
-  return {share(boundary.begin_a, perimeter_a), share(begin_b, perimeter_b)};
-}
-
-std::vector<double> perimeters(const std::vector<Piece>& pieces) {
-  std::vector<double> all;
-  all.reserve(pieces.size());
-  for (const Piece& piece : pieces) all.push_back(perimeter(piece.outline.points));
-  return all;
-}
-
 std::vector<Silhouette> silhouettes(const std::vector<Piece>& pieces, double step) {
   std::vector<std::unique_ptr<Silhouette>> made(pieces.size());
   parallel_for(pieces.size(), 1, [&](std::size_t first, std::size_t last) {
@@ -67,8 +46,7 @@ std::vector<Silhouette> silhouettes(const std::vector<Piece>& pieces, double ste
 
 /// The candidates measured at one scale; those that overlap or say nothing are left out.
 std::vector<Link> links_at(const std::vector<Silhouette>& shapes, const std::vector<PairResult>& pairs,
-                           const std::vector<double>& perimeters, double tolerance,
-                           const AssemblyOptions& options) {
+                           double tolerance, const AssemblyOptions& options) {
   std::vector<std::pair<std::size_t, std::size_t>> names;
   names.reserve(pairs.size());
   for (std::size_t a = 0; a < shapes.size(); ++a)
@@ -84,8 +62,8 @@ std::vector<Link> links_at(const std::vector<Silhouette>& shapes, const std::vec
         if (score < kLeastScore) continue;
         if (contact.intrusion > options.most_intrusion * contact.length) continue;
         if (!fills_hole(pairs[i].candidates[k], shapes[a], shapes[b], contact)) continue;
-        const auto [along_a, along_b] = stretches(pairs[i].candidates[k], perimeters[a], perimeters[b]);
-        found[i].push_back({a, b, pose, contact.information, contact.length, score, along_a, along_b});
+        found[i].push_back(
+            {a, b, pose, contact.information, contact.length, score, pairs[i].candidates[k].boundary});
       }
     }
   });
@@ -124,13 +102,11 @@ double fitting_step(const std::vector<Piece>& pieces, const std::vector<PairResu
                     const AssemblyOptions& options) {
   const double length = median_perimeter(pieces);
   const std::vector<PairResult> best = best_of(pairs, 2 * pieces.size());
-  const std::vector<double> lengths = perimeters(pieces);
   double most = -1.0;
   double step = length;
   for (const double samples : options.samples) {
     const double trial = length / samples;
-    const std::vector<Link> links =
-        links_at(silhouettes(pieces, trial), best, lengths, kTolerance * trial, options);
+    const std::vector<Link> links = links_at(silhouettes(pieces, trial), best, kTolerance * trial, options);
     const double information = total_information(links, pieces.size());
     if (information <= most) continue;
     most = information;
@@ -152,7 +128,9 @@ LinkedPieces link_pieces(const std::vector<Piece>& pieces, const std::vector<Pai
   result.step = fitting_step(pieces, pairs, options);
   result.tolerance = kTolerance * result.step;
   result.shapes = silhouettes(pieces, result.step);
-  result.links = links_at(result.shapes, pairs, perimeters(pieces), result.tolerance, options);
+  result.links = links_at(result.shapes, pairs, result.tolerance, options);
+  result.perimeters.reserve(pieces.size());
+  for (const Piece& piece : pieces) result.perimeters.push_back(perimeter(piece.outline.points));
   return result;
 }
 

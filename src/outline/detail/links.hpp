@@ -14,12 +14,6 @@ namespace rejoin::outline::detail {
 inline constexpr double kSameTurn = 0.05;
 inline constexpr double kSameShift = 0.04;
 
-/// A part of a piece's outer border, shares of it.
-struct Stretch {
-  double begin = 0.0;   ///< 0 <= begin < 1
-  double length = 0.0;  ///< 0: unknown, or along a hole
-};
-
 /// A candidate of a pair that says something.
 struct Link {
   std::size_t a;
@@ -28,8 +22,7 @@ struct Link {
   double information;  ///< of the contact, nats
   double length;       ///< of the contact, file units
   double score;        ///< of the candidate, by the search for pairs
-  Stretch along_a;     ///< where the two meet
-  Stretch along_b;
+  Boundary boundary;   ///< of the candidate: where the two meet
 };
 
 /// How many times likelier a join is by a candidate of this score than by one that says nothing, natural logarithm; >= 0.  It adds up
@@ -41,6 +34,7 @@ struct LinkedPieces {
   double step = 0.0;               ///< of the scale, file units
   double tolerance = 0.0;          ///< within which borders touch, file units
   std::vector<Silhouette> shapes;  ///< one a piece
+  std::vector<double> perimeters;  ///< of the outer borders, one a piece, file units
   std::vector<Link> links;         ///< sorted by a, then b
 };
 

@@ -15,6 +15,12 @@ constexpr double kSameBorder = 0.5;
 constexpr double kLikely = 0.3;
 constexpr double kTempered = 1.0 / 3.0;
 
+/// A part of a piece's outer border, shares of it.
+struct Stretch {
+  double begin = 0.0;   // 0 <= begin < 1
+  double length = 0.0;  // 0: along a hole
+};
+
 /// Length that two stretches of one closed border share, shares of it.
 double in_common(const Stretch& p, const Stretch& q) {
   double sum = 0.0;
@@ -30,9 +36,15 @@ bool same_border(const Stretch& p, const Stretch& q) {
   return in_common(p, q) > kSameBorder * std::max(p.length, q.length);
 }
 
-/// The stretch of a link on one of its pieces.
-const Stretch& stretch_on(const Link& link, std::size_t piece) {
-  return link.a == piece ? link.along_a : link.along_b;
+/// Where on one of its pieces a link's pieces meet.
+Stretch stretch_on(const Link& link, std::size_t piece, const LinkedPieces& pieces) {
+  const Boundary& boundary = link.boundary;
+  if (boundary.hole_a > 0 || boundary.hole_b > 0) return {};
+  const bool backward = link.b == piece && !link.pose.flipped;
+  const double first =
+      link.a == piece ? boundary.begin_a : boundary.begin_b - (backward ? boundary.length : 0.0);
+  const double begin = first / pieces.perimeters[piece];
+  return {begin - std::floor(begin), boundary.length / pieces.perimeters[piece]};
 }
 
 }  // namespace
@@ -43,7 +55,7 @@ std::vector<AssemblyRival> rivals_of(const Link& link, const LinkedPieces& piece
     if (other.score < kLikely || lies_so(other, pieces, placed)) continue;
     for (const std::size_t at : {link.a, link.b}) {
       if (other.a != at && other.b != at) continue;
-      if (!same_border(stretch_on(link, at), stretch_on(other, at))) continue;
+      if (!same_border(stretch_on(link, at, pieces), stretch_on(other, at, pieces))) continue;
       double& score = best[{other.a == at ? other.b : other.a, at}];
       score = std::max(score, other.score);
       if (other.a == link.a && other.b == link.b) break;  // told once
