@@ -263,7 +263,7 @@ class Look {
         if (!anything.within(2.0F * seam - p, kScanned * lengths_.thickness)) continue;
         goes = goes_on(p, normal, seam, near, anything, {a_.body, kWallBend, step});
       }
-      if (!goes && turns_away(p, normal, seam)) continue;
+      if (!goes && turns_away(p, normal, seam, near, finder)) continue;
       const double area = chosen.each * static_cast<double>(b_.walls.areas[i]);
       all += area;
       if (goes) found += area;
@@ -314,9 +314,9 @@ class Look {
 
   /// Whether A's wall, where B's would go on straight, looks away from it by about a right angle, as along the edge of a foot: no place
   /// of it can be compared.
-  bool turns_away(const glm::vec3& p, const glm::dvec3& normal, const glm::vec3& seam) const {
-    const Finder finder = sides_.wall_finder(quick_);
-    const auto beyond = finder.within(2.0F * seam - p, kWallNear * lengths_.thickness);
+  bool turns_away(const glm::vec3& p, const glm::dvec3& normal, const glm::vec3& seam, double near,
+                  const Finder& finder) const {
+    const auto beyond = finder.within(2.0F * seam - p, near);
     if (!beyond) return false;
     const double bend = glm::dot(glm::dvec3(a_.walls.normals[beyond->first]), normal);
     return bend < kWallBend && bend > kWallTurn;

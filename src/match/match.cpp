@@ -267,7 +267,6 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
   hypotheses.resize(std::min(hypotheses.size(), static_cast<std::size_t>(options.max_candidates)));
   if (near && !context.cancelled()) keep_laid(hypotheses, joint, a, b, *near, rounds, options, context);
   if (!context.cancelled()) tighten(hypotheses, joint, b, std::min(a.diameter, b.diameter));
-  if (near) keep_near(hypotheses, *near);
   weigh(hypotheses, joint);
   if (!context.cancelled()) settle(hypotheses, joint, b, std::min(a.diameter, b.diameter));
   if (near) keep_near(hypotheses, *near);

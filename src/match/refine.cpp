@@ -15,7 +15,7 @@ constexpr std::size_t kEvenIfCancelled = 6;
 constexpr std::array kTighter{0.7, 0.5, 0.35};  // reaches, tolerances
 constexpr double kUnbacked = 0.9;               // share of the contact
 constexpr double kSkin = 4.0;                   // patches: less goes on at wrong poses, too
-constexpr double kLoose = 0.82;                 // of what lies over the other surface, what touches
+constexpr double kLeastTouching = 0.82;         // of what lies over the other surface, what touches
 constexpr double kNoLimit = -std::numeric_limits<double>::infinity();
 
 void sort_by_rank(std::vector<Hypothesis>& list) {
@@ -122,7 +122,7 @@ bool may_be_walls(const Evidence& evidence) {
 }
 
 bool lies_loosely(const Evidence& evidence) {
-  return touching_share(evidence) < kLoose && evidence.continuation < kSkin;
+  return touching_share(evidence) < kLeastTouching && evidence.continuation < kSkin;
 }
 
 Evidence weigh(const Evidence& evidence, const Joint& joint, const Rigid& pose) {

@@ -17,7 +17,7 @@ constexpr double kSlope = 0.75;  // strength that multiplies the odds by e
 constexpr double kAhead = 11.0;  // log-odds of a sure join over those of the pair's next pose, at least
 constexpr double kNext = 0.8;    // of the strength of a sure join, that of the pair's next pose, at most
 
-/// Large joints are stronger by more than that by chance.
+/// Whether the pair's next pose comes near: of large joints equal poses differ by more than kAhead by chance.
 bool has_rival(const Stability& stability) {
   return stability.margin < kAhead || stability.next_share > kNext;
 }
