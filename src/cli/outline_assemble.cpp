@@ -17,6 +17,7 @@
 #include "core/words.hpp"
 #include "outline/assembly.hpp"
 #include "outline/assembly_pictures.hpp"
+#include "outline/emd.hpp"
 #include "outline/pieces_picture.hpp"
 #include "report/similarity_picture.hpp"
 
@@ -151,13 +152,18 @@ class OutlineAssembleCommand final : public Command {
     const std::unique_ptr<outline::Matcher> matcher = make_matcher(method_, multiscale);
     matcher->prepare(set.pieces);
     console.detail(fmt::format("prepared after {:.2f} s", seconds_since(begin)));
-    const outline::Assembly assembly = outline::assemble(set.pieces, *matcher, {}, context);
+    const std::unique_ptr<outline::Matcher> second =
+        method_ == OutlineMethod::Automatic ? outline::make_emd() : nullptr;
+    outline::AssemblyOptions options;
+    options.second = second.get();
+    const outline::Assembly assembly = outline::assemble(set.pieces, *matcher, options, context);
     console.detail(fmt::format("assembled after {:.2f} s", seconds_since(begin)));
     console.end_progress();
     if (assembly.cancelled) console.warning("interrupted; what follows is less than possible");
     if (json_ && assembly.cancelled && keeps_earlier(*json_, {*json_}, "assembly", console)) json_.reset();
     if (json_) {
-      const OutlineSearch search{name_of(method_), seconds_since(begin), assembly.cancelled};
+      const char* method = method_ == OutlineMethod::Automatic ? "auto" : name_of(method_);
+      const OutlineSearch search{method, seconds_since(begin), assembly.cancelled};
       write_file(*json_, assembly_json(set, assembly, search));
     }
     console.result(summary(set.pieces, assembly));
@@ -165,9 +171,10 @@ class OutlineAssembleCommand final : public Command {
       console.result(
           "  what lies upside down fits nowhere either; --method lcs finds it, but takes straight edges for "
           "joins\n");
-    if (!assembly.unplaced.empty() && method_ != OutlineMethod::Emd && method_ != OutlineMethod::Lcs)
+    if (!assembly.unplaced.empty() && method_ == OutlineMethod::Multiscale)
       console.result(
-          "  if a strip is missing between the pieces, as of worn edges, --method emd may place more\n");
+          "  if a strip is missing between the pieces, as of worn edges, --method emd or auto may place "
+          "more\n");
     if (!assembly.joins.empty() && method_ == OutlineMethod::Lcs)
       console.result("  lcs takes straight edges for joins: look at every one of them\n");
     if (json_) console.result(fmt::format("wrote {}\n", *json_));

@@ -41,7 +41,8 @@ const Choices<OutlineMethod> kMethods{{"auto", OutlineMethod::Automatic},
 }  // namespace
 
 void add_outline_method(CLI::App& app, OutlineMethod& method) {
-  add_choice(app, "--method", method, kMethods, "how borders are compared; auto is multiscale (auto)")
+  add_choice(app, "--method", method, kMethods,
+             "how borders are compared; auto: multiscale, in assemble emd next (auto)")
       ->group("Search");
 }
 

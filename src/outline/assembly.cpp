@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 #include <string_view>
@@ -345,12 +346,8 @@ std::vector<AssemblyRepeat> repeats_of(const std::vector<Piece>& pieces,
   return repeats;
 }
 
-}  // namespace
-
-Assembly assemble(const std::vector<Piece>& pieces, const std::vector<PairResult>& pairs,
-                  const AssemblyOptions& options, const Context& context) {
-  if (pieces.empty()) return {};
-  const LinkedPieces linked = detail::link_pieces(pieces, pairs, options);
+Assembly assemble_linked(const std::vector<Piece>& pieces, const LinkedPieces& linked,
+                         const AssemblyOptions& options, const Context& context) {
   Assembler assembler(linked, options);
   assembler.run(context);
   for (std::size_t g = 0; g < pieces.size() && !context.cancelled(); ++g)
@@ -362,34 +359,83 @@ Assembly assemble(const std::vector<Piece>& pieces, const std::vector<PairResult
   return assembly;
 }
 
-Assembly assemble(const std::vector<Piece>& pieces, const Matcher& matcher, const AssemblyOptions& options,
-                  const Context& context) {
-  std::vector<std::pair<std::size_t, std::size_t>> names;
-  for (std::size_t a = 0; a < pieces.size(); ++a)
-    for (std::size_t b = a + 1; b < pieces.size(); ++b) names.emplace_back(a, b);
-  std::vector<PairResult> pairs(names.size());
-  std::vector<char> matched(names.size(), 0);
+}  // namespace
+
+Assembly assemble(const std::vector<Piece>& pieces, const std::vector<PairResult>& pairs,
+                  const AssemblyOptions& options, const Context& context) {
+  if (pieces.empty()) return {};
+  return assemble_linked(pieces, detail::link_pieces(pieces, pairs, options), options, context);
+}
+
+namespace {
+
+/// Length of all joins.
+double joined_length(const Assembly& assembly) {
+  double length = 0.0;
+  for (const AssemblyJoin& join : assembly.joins) length += join.contact;
+  return length;
+}
+
+/// Two pieces, and whether their pair was looked at to the end.
+struct PairOfPieces {
+  std::size_t a = 0;
+  std::size_t b = 0;
+  std::size_t place = 0;  // among the results
+  bool matched = false;
+};
+
+/// \param stage  what progress is told of
+/// \param results  for (0, 1), (0, 2) .. (0, n - 1), (1, 2) ..; those of the pairs are set
+void match_all(const std::vector<Piece>& pieces, const Matcher& matcher, std::string_view stage,
+               std::vector<PairOfPieces>& names, std::vector<PairResult>& results, const Context& context) {
   // In portions, so that progress is told from one thread and a wish to stop is heard.
   constexpr std::size_t kPortion = 64;
   for (std::size_t begin = 0; begin < names.size() && !context.cancelled(); begin += kPortion) {
     const std::size_t count = std::min(kPortion, names.size() - begin);
     parallel_for(count, 1, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = begin + first; i < begin + last; ++i) {
-        const auto [a, b] = names[i];
-        if (!congruent(pieces[a].outline, pieces[b].outline)) pairs[i] = matcher.match(a, b, context);
-        matched[i] = context.cancelled() ? 0 : 1;
+        PairOfPieces& pair = names[i];
+        if (!congruent(pieces[pair.a].outline, pieces[pair.b].outline)) {
+          results[pair.place] = matcher.match(pair.a, pair.b, context);
+        }
+        pair.matched = !context.cancelled();
       }
     });
-    context.report("matching pairs", static_cast<double>(begin + count) / static_cast<double>(names.size()));
+    context.report(stage, static_cast<double>(begin + count) / static_cast<double>(names.size()));
   }
+}
+
+}  // namespace
+
+Assembly assemble(const std::vector<Piece>& pieces, const Matcher& matcher, const AssemblyOptions& options,
+                  const Context& context) {
+  if (pieces.empty()) return {};
+  std::vector<PairOfPieces> names;
+  for (std::size_t a = 0; a < pieces.size(); ++a)
+    for (std::size_t b = a + 1; b < pieces.size(); ++b) names.push_back({a, b, names.size(), false});
+  std::vector<PairResult> pairs(names.size());
+  match_all(pieces, matcher, "matching pairs", names, pairs, context);
   // A wish to stop that ended the search must not throw away what it found; to join that takes moments.
   const Context joining([&](std::string_view stage, double fraction) { context.report(stage, fraction); });
   const bool search_ended = context.cancelled();
-  Assembly assembly = assemble(pieces, pairs, options, search_ended ? joining : context);
+  LinkedPieces linked = detail::link_pieces(pieces, pairs, options);
+  Assembly assembly = assemble_linked(pieces, linked, options, search_ended ? joining : context);
+  if (options.second != nullptr && !assembly.unplaced.empty() && !context.cancelled()) {
+    std::vector<PairOfPieces> left;
+    const auto alone = [&](std::size_t p) { return std::ranges::binary_search(assembly.unplaced, p); };
+    std::ranges::copy_if(names, std::back_inserter(left),
+                         [&](const PairOfPieces& pair) { return alone(pair.a) || alone(pair.b); });
+    options.second->prepare(pieces);
+    std::vector<PairResult> more(names.size());
+    match_all(pieces, *options.second, "matching what is left", left, more, context);
+    detail::add_links(linked, more, options);
+    Assembly other = assemble_linked(pieces, linked, options, context.cancelled() ? joining : context);
+    if (joined_length(other) > joined_length(assembly)) assembly = std::move(other);
+  }
   assembly.cancelled = context.cancelled();
   std::set<std::size_t> open;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (matched[i] == 0) open.insert({names[i].first, names[i].second});
+  for (const PairOfPieces& pair : names)
+    if (!pair.matched) open.insert({pair.a, pair.b});
   const auto tried = std::stable_partition(assembly.unplaced.begin(), assembly.unplaced.end(),
                                            [&](std::size_t piece) { return open.count(piece) == 0; });
   assembly.untried.assign(tried, assembly.unplaced.end());

@@ -17,6 +17,9 @@ struct AssemblyOptions {
   double least_strength =
       8.0;  ///< that joins a group to another, nats: evidence of the candidates that agree, as odds
             ///< by their scores, and 0.3 of the contacts' information
+  Matcher* second =
+      nullptr;  ///< looks at all pairs of pieces that have no place by the first; need not be prepared.
+                ///< What it finds is used if the joins become longer together
   double most_intrusion = 0.3;  ///< border deep inside another piece, share of the contact's length
 };
 
@@ -69,7 +72,8 @@ struct Assembly {
 /// Matches all pairs and joins them greedily, the most telling first.  When two groups become one, what their pieces
 /// have in common with a third adds up (the similarity matrix is merged).  A merge that makes pieces overlap or leaves
 /// a loop open is refused; pieces that stand in the way of a better join are taken off again.  At the end the error is
-/// spread over all joins by least squares.  Congruent pieces are not matched with each other.
+/// spread over all joins by least squares.  Congruent pieces are not matched with each other.  Then, perhaps, all that once
+/// more with the candidates of a second search for what has no place.
 /// \param matcher  prepared with these pieces
 /// \return for a context that is cancelled while pairs are matched: what those matched so far give, all joined, which
 ///         nothing but the end of the process stops; pieces that might fit where nobody looked are

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+#include <utility>
+
 #include "core/parallel.hpp"
 #include "outline/detail/contour.hpp"
 #include "outline/emd.hpp"
@@ -334,6 +337,56 @@ TEST(Assembly, PiecesThatNobodyComparedAreNotSaidToFitNowhere) {
   const Assembly assembly = assemble(board.pieces, matcher, {}, context);
   EXPECT_EQ(assembly.unplaced, std::vector<std::size_t>{0});
   EXPECT_EQ(assembly.untried, (std::vector<std::size_t>{1, 2}));
+}
+
+/// Knows how neighbours from one piece of a board to another join, and which pairs it was asked for.
+class NeighbourMatcher final : public Matcher {
+ public:
+  NeighbourMatcher(const planted::Board& board, std::size_t first, std::size_t last)
+      : board_(board), first_(first), last_(last) {}
+  void prepare(const std::vector<Piece>& /*pieces*/) override {}
+  PairResult match(std::size_t a, std::size_t b, const Context& /*context*/) const override {
+    asked.emplace(a, b);
+    if (b != a + 1 || a < first_ || b > last_) return {};
+    JoinCandidate join;
+    join.score = 0.9;
+    join.pose = inverse(board_.poses[a]) * board_.poses[b];
+    return {{join}};
+  }
+
+  mutable std::set<std::pair<std::size_t, std::size_t>> asked;
+
+ private:
+  const planted::Board& board_;
+  std::size_t first_;
+  std::size_t last_;
+};
+
+TEST(Assembly, ASecondSearchLooksAtWhatIsLeft) {
+  const ThreadLimit limit(1);
+  const planted::Board board = planted::broken_board(4, 1, 0.05, 62);
+  const NeighbourMatcher first(board, 0, 2);
+  NeighbourMatcher second(board, 2, 3);
+  AssemblyOptions options;
+  options.second = &second;
+  const Assembly assembly = assemble(board.pieces, first, options, Context());
+  EXPECT_EQ(second.asked, (std::set<std::pair<std::size_t, std::size_t>>{{0, 3}, {1, 3}, {2, 3}}));
+  EXPECT_TRUE(assembly.unplaced.empty());
+  EXPECT_LT(misplaced(board, assembly, 0, 3), 0.3);
+  // What it finds alone would not do.
+  options.second = nullptr;
+  EXPECT_EQ(assemble(board.pieces, first, options, Context()).unplaced, std::vector<std::size_t>{3});
+}
+
+TEST(Assembly, ASecondSearchIsNotAskedIfNothingIsLeft) {
+  const ThreadLimit limit(1);
+  const planted::Board board = planted::broken_board(3, 1, 0.05, 62);
+  const NeighbourMatcher first(board, 0, 2);
+  NeighbourMatcher second(board, 0, 2);
+  AssemblyOptions options;
+  options.second = &second;
+  EXPECT_EQ(assemble(board.pieces, first, options, Context()).joins.size(), 2U);
+  EXPECT_TRUE(second.asked.empty());
 }
 
 TEST(Assembly, OfNoPiecesIsEmpty) {

@@ -16,8 +16,12 @@ namespace {
 constexpr double kTolerance = 1.5;
 // Candidates of a pair that are considered.
 constexpr std::size_t kCandidates = 4;
+// Odds of higher scores are no number.
+constexpr double kCertain = 1.0 - 1e-12;
 // Candidates of less than this score are noise.
 constexpr double kLeastScore = 0.02;
+// What the odds of a second search's candidates have less, nats: it is asked about what nothing else fits, where chance has more tries.
+constexpr double kSecondSearch = 2.0;
 // A piece in a hole: whatever has about the hole's size follows its border round somehow, and mostly no other join tells more.
 // So the search must find it likely, or this share of the piece's border must touch the hole's.
 constexpr double kLeastInHole = 0.3;
@@ -119,7 +123,7 @@ double fitting_step(const std::vector<Piece>& pieces, const std::vector<PairResu
 
 double evidence_of(double score) {
   const double idle = score_of(0.0);  // of a candidate that says nothing
-  return odds_of_score(std::clamp(score, idle, 1.0 - 1e-12)) - odds_of_score(idle);
+  return odds_of_score(std::clamp(score, idle, kCertain)) - odds_of_score(idle);
 }
 
 LinkedPieces link_pieces(const std::vector<Piece>& pieces, const std::vector<PairResult>& pairs,
@@ -132,6 +136,16 @@ LinkedPieces link_pieces(const std::vector<Piece>& pieces, const std::vector<Pai
   result.perimeters.reserve(pieces.size());
   for (const Piece& piece : pieces) result.perimeters.push_back(perimeter(piece.outline.points));
   return result;
+}
+
+void add_links(LinkedPieces& linked, const std::vector<PairResult>& pairs, const AssemblyOptions& options) {
+  std::vector<PairResult> doubted = pairs;
+  for (PairResult& pair : doubted)
+    for (JoinCandidate& candidate : pair.candidates)
+      candidate.score = score_of_odds(odds_of_score(std::min(candidate.score, kCertain)) - kSecondSearch);
+  const std::vector<Link> more = links_at(linked.shapes, doubted, linked.tolerance, options);
+  linked.links.insert(linked.links.end(), more.begin(), more.end());
+  std::ranges::stable_sort(linked.links, {}, [](const Link& link) { return std::pair(link.a, link.b); });
 }
 
 bool lies_so(const Link& link, const LinkedPieces& pieces, const Layout& placed) {
