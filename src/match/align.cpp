@@ -194,4 +194,16 @@ Rigid Joint::align(const Rigid& start, const AlignOptions& options) const {
   return pose;
 }
 
+glm::dvec3 Joint::least_held(const Rigid& pose, double reach) const {
+  const AlignOptions options{reach, reach};
+  Sampled of_b = sampled(*sides_, pose, -1, options);
+  System system;
+  const View view{*sides_, pose, false, glm::dvec3(0.0)};
+  add_broken(system, view, of_b.broken, reach, options);
+  if (sides_->lengths().thickness > 0) add_walls(system, view, of_b.walls, reach, false);
+  const Eigen::Matrix3d shifts = system.matrix.bottomRightCorner<3, 3>();
+  const Eigen::Vector3d least = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(shifts).eigenvectors().col(0);
+  return {least.x(), least.y(), least.z()};
+}
+
 }  // namespace rejoin::match

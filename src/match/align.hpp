@@ -45,6 +45,11 @@ class Joint {
   /// are lined up too. Gaps are tolerated (worn surfaces recede): outliers weigh nothing (Tukey).
   Rigid align(const Rigid& start, const AlignOptions& options) const;
 
+  /// The direction in which what faces each other, and thin pieces' walls, hold a shift least: along a groove, or the seam of a sherd.
+  /// \param reach  as AlignOptions::reach_end
+  /// \return unit, A's axes
+  glm::dvec3 least_held(const Rigid& pose, double reach) const;
+
   /// The parameters are those of LookOptions.
   Evidence evidence(const Rigid& pose, int most_samples, int facet_b = -1, bool quick = false) const;
 

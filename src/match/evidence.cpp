@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -24,7 +23,7 @@ using detail::Finder;
 using detail::heights_above_quadric;
 using detail::kFacing;
 using detail::kWallNear;
-using detail::middle_and_axis;
+using detail::middle;
 using detail::robust_deviation;
 
 constexpr int kBodySamples = 4000;   // of B that are asked whether they lie inside A
@@ -192,7 +191,7 @@ class Look {
     e.gap_middle = median(gaps);
     e.gap_spread = robust_deviation(std::move(gaps));
     e.relief = robust_deviation(heights_above_quadric(c.core, glm::normalize(c.normal), rounds));
-    std::tie(e.centre, e.along) = middle_and_axis(c.core);
+    e.centre = middle(c.core);
     e.information = 0.5 * static_cast<double>(c.core.size()) * each / e.patch_area *
                     std::log((e.relief * e.relief + lengths_.noise * lengths_.noise) /
                              (e.gap_spread * e.gap_spread + lengths_.noise * lengths_.noise));

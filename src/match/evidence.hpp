@@ -47,7 +47,6 @@ struct Evidence {
   double tolerance = 0;    ///< distance below which the surfaces touch, mesh units
   glm::dvec3 normal{0.0};  ///< mean outward normal of A's shared surface, unit; 0 without any
   glm::dvec3 centre{0.0};  ///< of the shared surface, relative to A's origin
-  glm::dvec3 along{0.0};   ///< its longest direction, unit; 0 without any
 };
 
 /// What the evidence is worth: information, less what the joint leaves open or overlaps, and for solid pieces what goes on across

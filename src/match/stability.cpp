@@ -7,7 +7,7 @@
 namespace rejoin::match {
 namespace {
 
-constexpr double kPush = 3.0;  // tolerances by which the pose is moved along the seam
+constexpr double kPush = 3.0;  // tolerances by which the pose is moved
 constexpr double kDegrees = 57.29577951308232;
 constexpr int kFewest = 24;  // samples: an alignment by half of them takes 12
 
@@ -26,12 +26,13 @@ std::optional<Stability> probe(const Joint& joint, const Rigid& pose, const Evid
   Stability stability;
   stability.repeat_deg = kDegrees * angle_between(halves[0], halves[1]);
   stability.repeat_shift = glm::distance(halves[0](on_b), halves[1](on_b));
+  const glm::dvec3 along = joint.least_held(pose, t);
   options = {2.0 * kPush * t, 1.0 * t, 15, 0};
   for (const double push : {-kPush * t, kPush * t}) {
-    const Rigid moved = Rigid{glm::dmat3(1.0), push * evidence.along} * pose;
+    const Rigid moved = Rigid{glm::dmat3(1.0), push * along} * pose;
     const glm::dvec3 left = joint.align(moved, options)(on_b) - evidence.centre;
     // Where the alignment carries the pose on, or back beyond its place, nothing holds it: that is no more than free.
-    const double share = std::abs(glm::dot(left, evidence.along) / push);
+    const double share = std::abs(glm::dot(left, along) / push);
     stability.slide = std::max(stability.slide, std::min(1.0, share));
   }
   return stability;

@@ -8,7 +8,8 @@
 
 namespace rejoin::match {
 
-/// Aligns the pose again with either half of B's broken samples, and after pushes along the seam.
+/// Aligns the pose again with either half of B's broken samples, and after pushes in the direction in which it is held
+/// least: along a groove, or the seam of a sherd.
 /// \param evidence  of the pose
 /// \return all but `margin`, which takes the other candidates; nullopt if too few samples touch
 std::optional<Stability> probe(const Joint& joint, const Rigid& pose, const Evidence& evidence);

@@ -17,6 +17,8 @@ constexpr double kSlope = 0.75;  // strength that multiplies the odds by e
 constexpr double kAhead = 11.0;  // log-odds of a sure join over those of the pair's next pose, at least
 constexpr double kNext = 0.8;    // of the strength of a sure join, that of the pair's next pose, at most
 
+constexpr double kHeld = 0.7;  // of a push that a sure join leaves, at most
+
 /// Whether the pair's next pose comes near: of large joints equal poses differ by more than kAhead by chance.
 bool has_rival(const Stability& stability) {
   return stability.margin < kAhead || stability.next_share > kNext;
@@ -33,7 +35,8 @@ double score_of(double strength) {
 }
 
 Verdict verdict_of(double score, const std::optional<Stability>& stability) {
-  const bool holds = stability && stability->repeat_deg <= kSteady && !has_rival(*stability);
+  const bool holds =
+      stability && stability->repeat_deg <= kSteady && stability->slide <= kHeld && !has_rival(*stability);
   if (score >= kSure && holds) return Verdict::Join;
   return score >= kPossible ? Verdict::Unsure : Verdict::NoJoin;
 }
@@ -42,9 +45,10 @@ std::string against(const Evidence& evidence, double score, const std::optional<
   if (verdict_of(score, stability) == Verdict::Join) return {};
   if (score >= kSure) {
     if (!stability) return "it was not looked at whether the pose holds";
-    return has_rival(*stability) ? "another pose of the two is nearly as good"
-                                 : fmt::format("either half of the break turns the pose by {:.1f} degrees",
-                                               stability->repeat_deg);
+    if (has_rival(*stability)) return "another pose of the two is nearly as good";
+    if (stability->repeat_deg > kSteady)
+      return fmt::format("either half of the break turns the pose by {:.1f} degrees", stability->repeat_deg);
+    return "one piece slides along the other: nothing holds it there";
   }
   const std::string found = objection(evidence);
   return found.empty() ? "the breaks have too little shape in common" : found;

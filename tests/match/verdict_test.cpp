@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "core/random.hpp"
@@ -12,6 +13,8 @@ namespace rejoin::match {
 namespace {
 
 using testing::flat_half;
+using testing::half_block;
+using testing::kHalfZ;
 using testing::make_pair;
 using testing::Pair;
 
@@ -25,6 +28,23 @@ TEST(Stability, WavyCutHoldsAndPlaneSlides) {
   const Fragment below = flat_half(true);
   const Fragment above = flat_half(false);
   EXPECT_GT(slide_at(Joint(below, above), Rigid{}), 0.8);
+}
+
+// Along a break's width, where it is shorter; its length is held by the relief.
+TEST(Stability, PushesWhereTheJointHoldsLeast) {
+  const auto grooved = [](bool below) {
+    mesh::Mesh half = half_block(below, 48);
+    for (auto& v : half.vertices) {
+      if (std::abs(v.z) < static_cast<float>(kHalfZ))
+        v.z = 3.0F * std::sin(0.2F * v.x) + std::sin(0.37F * v.x);
+    }
+    return prepare(below ? "below" : "above", half, Context{});
+  };
+  const Fragment below = grooved(true);
+  const Fragment above = grooved(false);
+  const Joint joint(below, above);
+  EXPECT_GT(std::abs(joint.least_held(Rigid{}, joint.tolerance()).y), 0.99);
+  EXPECT_GT(slide_at(joint, Rigid{}), 0.8);
 }
 
 // A false pose may be carried farther than it was pushed.
@@ -58,6 +78,8 @@ TEST(Score, PoseThatAnotherComesNearOrThatTurnsIsNoSureJoin) {
   EXPECT_EQ(verdict_of(1.0, Stability{.margin = 20, .repeat_deg = 4}), Verdict::Unsure);
   EXPECT_EQ(verdict_of(1.0, Stability{.margin = 20, .next_share = 0.5}), Verdict::Join);
   EXPECT_EQ(verdict_of(1.0, Stability{.margin = 20, .next_share = 0.9}), Verdict::Unsure);
+  EXPECT_EQ(verdict_of(1.0, Stability{.margin = 20, .slide = 0.5}), Verdict::Join);
+  EXPECT_EQ(verdict_of(1.0, Stability{.margin = 20, .slide = 0.9}), Verdict::Unsure);
   EXPECT_EQ(verdict_of(0.1, Stability{.margin = 20, .repeat_deg = 0.5}), Verdict::NoJoin);
 }
 
@@ -106,6 +128,9 @@ TEST(Against, TellsWhatKeepsAHighScoreFromBeingAJoin) {
   stability.margin = 20.0;
   stability.repeat_deg = 30.0;
   EXPECT_TRUE(tells(against(sound(), 1.0, stability), "30.0 degrees"));
+  stability.repeat_deg = 0.5;
+  stability.slide = 0.9;
+  EXPECT_TRUE(tells(against(sound(), 1.0, stability), "slides"));
   EXPECT_TRUE(tells(against(sound(), 0.1, stability), "too little shape"));
 }
 

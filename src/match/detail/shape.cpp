@@ -29,8 +29,7 @@ double robust_deviation(std::vector<double> values) {
 std::vector<double> heights_above_quadric(const std::vector<glm::dvec3>& points, const glm::dvec3& normal,
                                           int rounds) {
   const glm::dmat3 frame = frame_of(normal);
-  glm::dvec3 centre(0.0);
-  for (const auto& p : points) centre += p / static_cast<double>(points.size());
+  const glm::dvec3 centre = middle(points);
   double size = 0.0;
   for (const auto& p : points) size = std::max(size, glm::distance(p, centre));
   std::vector<Vector6> rows;
@@ -62,16 +61,10 @@ std::vector<double> heights_above_quadric(const std::vector<glm::dvec3>& points,
   return rest;
 }
 
-std::pair<glm::dvec3, glm::dvec3> middle_and_axis(const std::vector<glm::dvec3>& points) {
-  glm::dvec3 centre(0.0);
-  for (const auto& p : points) centre += p / static_cast<double>(points.size());
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const auto& p : points) {
-    const Eigen::Vector3d q(p.x - centre.x, p.y - centre.y, p.z - centre.z);
-    spread += q * q.transpose();
-  }
-  const Eigen::Vector3d axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
-  return {centre, {axis.x(), axis.y(), axis.z()}};
+glm::dvec3 middle(const std::vector<glm::dvec3>& points) {
+  glm::dvec3 sum(0.0);
+  for (const auto& p : points) sum += p;
+  return sum / static_cast<double>(points.size());
 }
 
 }  // namespace rejoin::match::detail

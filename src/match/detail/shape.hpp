@@ -2,7 +2,6 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <utility>
 #include <vector>
 
 namespace rejoin::match::detail {
@@ -15,7 +14,7 @@ double robust_deviation(std::vector<double> values);
 std::vector<double> heights_above_quadric(const std::vector<glm::dvec3>& points, const glm::dvec3& normal,
                                           int rounds);
 
-/// Mean of points, and the direction, unit, in which they spread most.
-std::pair<glm::dvec3, glm::dvec3> middle_and_axis(const std::vector<glm::dvec3>& points);
+/// Mean of points.
+glm::dvec3 middle(const std::vector<glm::dvec3>& points);
 
 }  // namespace rejoin::match::detail
