@@ -75,6 +75,11 @@ std::string without_place(const std::vector<outline::Piece>& pieces, const outli
                          pieces[rival->at].name, rival->score,
                          pieces[rival->at == join.a ? join.b : join.a].name);
   }
+  const auto refused = std::ranges::find(assembly.refused, piece, &outline::AssemblyRival::piece);
+  if (refused != assembly.refused.end())
+    return fmt::format(
+        "  has no place: {} (fits {}, {:.2f}, but would overlap other pieces there, or only touch them)\n",
+        name, pieces[refused->at].name, refused->score);
   return fmt::format("  fits nowhere: {}\n", name);
 }
 

@@ -37,6 +37,14 @@ ordered_json to_json(const std::vector<outline::LeftOut>& list) {
   return json;
 }
 
+ordered_json to_json(const std::vector<outline::Piece>& pieces,
+                     const std::vector<outline::AssemblyRival>& list) {
+  ordered_json json = ordered_json::array();
+  for (const outline::AssemblyRival& one : list)
+    json.push_back({{"name", pieces[one.piece].name}, {"at", pieces[one.at].name}, {"score", one.score}});
+  return json;
+}
+
 }  // namespace
 
 ordered_json to_json(const outline::Planar& pose) {
@@ -81,16 +89,12 @@ std::string assembly_json(const outline::PieceSet& set, const outline::Assembly&
   }
   ordered_json joins = ordered_json::array();
   for (const outline::AssemblyJoin& join : assembly.joins) {
-    ordered_json rivals = ordered_json::array();
-    for (const outline::AssemblyRival& rival : join.rivals)
-      rivals.push_back(
-          {{"name", pieces[rival.piece].name}, {"at", pieces[rival.at].name}, {"score", rival.score}});
     joins.push_back({{"a", pieces[join.a].name},
                      {"b", pieces[join.b].name},
                      {"score", join.score},
                      {"contact", join.contact},
                      {"proposed", join.proposed},
-                     {"rivals", rivals}});
+                     {"rivals", to_json(pieces, join.rivals)}});
   }
   ordered_json touches = ordered_json::array();
   for (const outline::AssemblyJoin& touch : assembly.touches)
@@ -117,6 +121,7 @@ std::string assembly_json(const outline::PieceSet& set, const outline::Assembly&
       {"repeated", to_json(set.repeated)},
       {"left_out", to_json(set.left_out)},
       {"congruent", congruent},
+      {"refused", to_json(pieces, assembly.refused)},
       {"rms", assembly.rms},
       {"search",
        {{"method", search.method}, {"seconds", search.seconds}, {"interrupted", search.interrupted}}},

@@ -26,6 +26,8 @@ using detail::LinkedPieces;
 
 // What holds a part of a group to the rest, nats.
 constexpr double kLeastJoin = 2.0;
+// Score of a join that is not given up for a better fit of the whole.
+constexpr double kLikelyJoin = 0.3;
 // Of the contacts' information, beside the candidates' evidence, which knows most of it.
 constexpr double kOfContacts = 0.3;
 // Pieces that share less than this, or face each other over less, only touch, as corners do; steps.
@@ -52,19 +54,21 @@ struct Told {
 class Assembler {
  public:
   Assembler(const LinkedPieces& pieces, const AssemblyOptions& options)
-      : shapes_(pieces.shapes),
+      : pieces_(pieces),
+        shapes_(pieces.shapes),
         links_(pieces.links),
         tolerance_(pieces.tolerance),
         options_(options),
         layout_(pieces.shapes, pieces.tolerance) {}
 
-  void run(const Context& context) {
+  Layout run(const Context& context) {
     grow(context);
     // Each round must make the whole fit better, so this ends; the number is a safeguard.
     for (int round = 0; round < 8 && resolve_one_conflict(context); ++round) grow(context);
+    for (std::size_t g = 0; g < layout_.size() && !context.cancelled(); ++g)
+      spread(layout_, g, tolerance_, 4);
+    return layout_;
   }
-
-  Layout& layout() { return layout_; }
 
  private:
   /// Joins groups, the most telling bundle first, until no bundle is left that holds.
@@ -164,8 +168,8 @@ class Assembler {
     if (!layout_.visit_contacts(bundle.first, bundle.second, bundle.moved, fits)) return false;
     Layout trial = layout_;
     trial.merge(bundle.first, bundle.second, bundle.moved);
-    trial.spread_error(bundle.first, 2.0 * tolerance_, 2);
-    trial.spread_error(bundle.first, tolerance_, 2);
+    spread(trial, bundle.first, 2.0 * tolerance_, 2);
+    spread(trial, bundle.first, tolerance_, 2);
     std::vector<PlacedContact> across;
     for (const PlacedContact& c : trial.contacts_within(bundle.first))
       if (layout_.group(c.a) != layout_.group(c.b)) across.push_back(c);
@@ -175,6 +179,17 @@ class Assembler {
     if (settled.strength() < options_.least_strength || across.empty() || !hold(across)) return false;
     layout_ = std::move(trial);
     return true;
+  }
+
+  /// Spreads a group's error, unless that carries likely joins away: borders that part at the ends of a short contact draw at each other, too.
+  void spread(Layout& layout, std::size_t group, double tolerance, int iterations) const {
+    Layout moved = layout;
+    moved.spread_error(group, tolerance, iterations);
+    const bool carries_away = std::ranges::any_of(links_, [&](const Link& link) {
+      return link.score >= kLikelyJoin && layout.group(link.a) == group &&
+             detail::lies_so(link, pieces_, layout) && !detail::lies_so(link, pieces_, moved);
+    });
+    if (!carries_away) layout = std::move(moved);
   }
 
   bool intrudes(const Contact& contact, double leniency) const {
@@ -225,6 +240,7 @@ class Assembler {
     return false;
   }
 
+  const LinkedPieces& pieces_;
   const std::vector<Silhouette>& shapes_;
   const std::vector<Link>& links_;
   double tolerance_;
@@ -346,14 +362,25 @@ std::vector<AssemblyRepeat> repeats_of(const std::vector<Piece>& pieces,
   return repeats;
 }
 
+/// \param unplaced  ascending
+std::vector<AssemblyRival> refused_of(const LinkedPieces& linked, const std::vector<std::size_t>& unplaced) {
+  std::vector<AssemblyRival> refused;
+  for (const std::size_t piece : unplaced) {
+    AssemblyRival best;
+    for (const Link& link : linked.links)
+      if ((link.a == piece || link.b == piece) && link.score > best.score)
+        best = {piece, link.a == piece ? link.b : link.a, link.score};
+    if (best.score >= kSureScore) refused.push_back(best);
+  }
+  return refused;
+}
+
 Assembly assemble_linked(const std::vector<Piece>& pieces, const LinkedPieces& linked,
                          const AssemblyOptions& options, const Context& context) {
-  Assembler assembler(linked, options);
-  assembler.run(context);
-  for (std::size_t g = 0; g < pieces.size() && !context.cancelled(); ++g)
-    assembler.layout().spread_error(g, linked.tolerance, 4);
-  Assembly assembly = Description(pieces, linked, assembler.layout()).assembly();
+  const Layout layout = Assembler(linked, options).run(context);
+  Assembly assembly = Description(pieces, linked, layout).assembly();
   assembly.repeats = repeats_of(pieces, assembly.unplaced);
+  assembly.refused = refused_of(linked, assembly.unplaced);
   assembly.similarity = detail::similarity(linked);
   assembly.cancelled = context.cancelled();
   return assembly;

@@ -30,10 +30,11 @@ struct Placement {
   double confidence = 0.0;  ///< 0..1, that one of its joins is true, by their scores; 0: placed nowhere
 };
 
-/// A piece that fits the border along which two others are joined.
+/// A piece that fits another one, where it does not lie.  Where it would take the place of a piece that is joined there: that one's rival.
 struct AssemblyRival {
   std::size_t piece = 0;
-  std::size_t at = 0;  ///< one of the two, or, if they fit each other in two ways, each in turn
+  std::size_t at =
+      0;  ///< of a rival: one of the two that are joined, or, if they fit each other in two ways, each in turn
   double score = 0.0;  ///< 0..1, of piece and `at` by the search for pairs
 };
 
@@ -63,6 +64,9 @@ struct Assembly {
   std::vector<std::size_t>
       untried;  ///< pieces without a place whose pairs were not all looked at; see cancelled
   std::vector<AssemblyRepeat> repeats;  ///< ascending by piece
+  std::vector<AssemblyRival>
+      refused;  ///< of unplaced pieces that have a sure candidate, the best: laid there they would overlap
+                ///< others, or share no border with them
   std::vector<std::vector<double>>
       similarity;    ///< length of the common border of each pair's best candidate, used or not; 0 if none
   double rms = 0.0;  ///< distance of the borders along all joins, file units

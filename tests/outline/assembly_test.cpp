@@ -11,6 +11,7 @@
 #include "outline/layout.hpp"
 #include "outline/multiscale.hpp"
 #include "outline/scan.hpp"
+#include "outline/signal.hpp"
 #include "planted.hpp"
 
 namespace rejoin::outline {
@@ -362,6 +363,38 @@ class NeighbourMatcher final : public Matcher {
   std::size_t last_;
 };
 
+/// Half of a long board that meets the other half along a short, finely bent line only, from where both lean back.
+Outline leaning_half(bool left, double above_deg, double below_deg) {
+  const double side = left ? -1.0 : 1.0;
+  const auto line = [](double y) { return 0.6 * std::sin(2.1 * y) + 0.5 * std::sin(1.3 * y + 1.0); };
+  const auto leaning = [&](double degrees) { return 300.0 * side * std::tan(degrees * 0.0174532925); };
+  std::vector<glm::dvec2> corners;
+  for (double y = -20.0; y <= 20.0; y += 0.25) corners.emplace_back(line(y), y);
+  corners.emplace_back(line(20.0) + leaning(above_deg), 320.0);
+  corners.emplace_back(side * 400.0, 320.0);
+  corners.emplace_back(side * 400.0, -320.0);
+  corners.emplace_back(line(-20.0) + leaning(below_deg), -320.0);
+  if (!left) std::ranges::reverse(corners);
+  if (signed_area(corners) < 0.0) std::ranges::reverse(corners);
+  Outline outline;
+  outline.points = resample_by(corners, 0.5);
+  return outline;
+}
+
+// At a coarse scale the borders beyond the join draw at each other, too.
+TEST(Assembly, LeavesAShortSureJoinWhereTheSearchPutIt) {
+  const std::vector<Piece> pieces{{"left", "left", leaning_half(true, 3.0, 12.0)},
+                                  {"right", "right", leaning_half(false, 3.0, 12.0)}};
+  JoinCandidate join;
+  join.score = 0.9999;
+  const Assembly assembly = assemble(pieces, {{{join}}}, {}, Context());
+  ASSERT_EQ(assembly.joins.size(), 1U);
+  EXPECT_TRUE(assembly.joins[0].proposed);
+  const Planar placed = inverse(assembly.placements[0].pose) * assembly.placements[1].pose;
+  EXPECT_LT(glm::length(placed({0.0, 0.0})), 3.0);
+  EXPECT_LT(std::abs(angle_between(placed, Planar{})), 0.02);
+}
+
 TEST(Assembly, ASecondSearchLooksAtWhatIsLeft) {
   const ThreadLimit limit(1);
   const planted::Board board = planted::broken_board(4, 1, 0.05, 62);
@@ -387,6 +420,25 @@ TEST(Assembly, ASecondSearchIsNotAskedIfNothingIsLeft) {
   options.second = &second;
   EXPECT_EQ(assemble(board.pieces, first, options, Context()).joins.size(), 2U);
   EXPECT_TRUE(second.asked.empty());
+}
+
+// The third piece takes the second one's place.
+TEST(Assembly, TellsOfAPieceWithoutAPlaceWhereItWouldFit) {
+  const planted::Board board = planted::broken_board(3, 1, 0.05, 62);
+  JoinCandidate true_one;
+  true_one.score = 0.9999;
+  true_one.pose = inverse(board.poses[0]) * board.poses[1];
+  JoinCandidate other = true_one;
+  other.score = 0.8;
+  other.pose = true_one.pose * Planar{0.0, {2.0, 0.0}, false} * inverse(board.poses[1]) * board.poses[2] *
+               Planar{0.0, {1.0, 0.0}, false};
+  const std::vector<PairResult> pairs{{{true_one}}, {{other}}, {}};
+  const Assembly assembly = assemble(board.pieces, pairs, {}, Context());
+  ASSERT_EQ(assembly.unplaced, std::vector<std::size_t>{2});
+  ASSERT_EQ(assembly.refused.size(), 1U);
+  EXPECT_EQ(assembly.refused[0].piece, 2U);
+  EXPECT_EQ(assembly.refused[0].at, 0U);
+  EXPECT_EQ(assembly.refused[0].score, 0.8);
 }
 
 TEST(Assembly, OfNoPiecesIsEmpty) {

@@ -235,6 +235,26 @@ TEST_F(ReadFolder, TornQuartersOfAPageAreNoRulers) {
   EXPECT_EQ(read_folder(folder_.string()).pieces.size(), 6U);
 }
 
+// A clean tear is an even bow, by a fortieth of its length here; a lens bows the side of a ruler by a three hundredth.
+TEST_F(ReadFolder, PiecesWithABowedTearAreNoRulers) {
+  const auto pieces_with_bow = [&](double bow) {
+    cv::Mat picture(900, 1200, CV_8UC3, cv::Scalar(20, 20, 20));
+    cv::circle(picture, {250, 650}, 180, cv::Scalar(240, 240, 240), cv::FILLED, cv::LINE_AA);
+    std::vector<cv::Point> border{{1100, 100}, {1100, 450}, {500, 450}, {500, 100}};
+    for (int x = 501; x < 1100; ++x) {
+      const double along = (x - 800) / 300.0;
+      border.emplace_back(x, 100 + static_cast<int>(std::lround(bow * 600.0 * (1.0 - along * along))));
+    }
+    cv::fillPoly(picture, std::vector<std::vector<cv::Point>>{border}, cv::Scalar(240, 240, 240),
+                 cv::LINE_AA);
+    cv::imwrite((folder_ / "both.png").string(), picture);
+    cv::imwrite((folder_ / "a.png").string(), blot(50));
+    return read_folder(folder_.string()).pieces.size();
+  };
+  EXPECT_EQ(pieces_with_bow(0.025), 3U);
+  EXPECT_EQ(pieces_with_bow(0.003), 2U);
+}
+
 TEST_F(ReadFolder, WhatWasCutOutOfAPieceStays) {
   cv::Mat picture(900, 1200, CV_8UC3, cv::Scalar(20, 20, 20));
   cv::circle(picture, {400, 450}, 350, cv::Scalar(240, 240, 240), cv::FILLED, cv::LINE_AA);

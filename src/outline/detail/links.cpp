@@ -22,6 +22,8 @@ constexpr double kCertain = 1.0 - 1e-12;
 constexpr double kLeastScore = 0.02;
 // What the odds of a second search's candidates have less, nats: it is asked about what nothing else fits, where chance has more tries.
 constexpr double kSecondSearch = 2.0;
+// Nats that a coarser scale has to say more to be taken: where a short contact says nothing, borders near it do, wider apart.
+constexpr double kCoarser = 4.0;
 // A piece in a hole: whatever has about the hole's size follows its border round somehow, and mostly no other join tells more.
 // So the search must find it likely, or this share of the piece's border must touch the hole's.
 constexpr double kLeastInHole = 0.3;
@@ -34,6 +36,19 @@ bool fills_hole(const JoinCandidate& candidate, const Silhouette& a, const Silho
   if ((hole_a == 0 && hole_b == 0) || candidate.score >= kLeastInHole) return true;
   const Ring& border = hole_a > 0 ? b.rings[0] : a.rings[0];
   return contact.length >= kLeastTouching * border.step * static_cast<double>(border.end);
+}
+
+/// Whether two motions of a piece, into the same frame, are about the same.
+bool same_place(const Silhouette& piece, const Planar& p, const Planar& q) {
+  if (angle_between(p, q) >= kSameTurn) return false;
+  const glm::dvec2 centre = 0.5 * (piece.low + piece.high);
+  return glm::distance(p(centre), q(centre)) < kSameShift * glm::distance(piece.low, piece.high);
+}
+
+/// The pose settled, or the pose itself where borders that part at the ends of a short contact would draw it elsewhere.
+Planar settled(const Silhouette& a, const Silhouette& b, const Planar& pose, double tolerance) {
+  const Planar moved = settle(a, b, pose, tolerance, 3);
+  return same_place(b, pose, moved) ? moved : pose;
 }
 
 std::vector<Silhouette> silhouettes(const std::vector<Piece>& pieces, double step) {
@@ -60,7 +75,7 @@ std::vector<Link> links_at(const std::vector<Silhouette>& shapes, const std::vec
     for (std::size_t i = first; i < last; ++i) {
       const auto [a, b] = names[i];
       for (std::size_t k = 0; k < pairs[i].candidates.size() && k < kCandidates; ++k) {
-        const Planar pose = settle(shapes[a], shapes[b], pairs[i].candidates[k].pose, tolerance, 3);
+        const Planar pose = settled(shapes[a], shapes[b], pairs[i].candidates[k].pose, tolerance);
         const Contact contact = measure_contact(shapes[a], shapes[b], pose, tolerance);
         const double score = pairs[i].candidates[k].score;
         if (score < kLeastScore) continue;
@@ -106,13 +121,13 @@ double fitting_step(const std::vector<Piece>& pieces, const std::vector<PairResu
                     const AssemblyOptions& options) {
   const double length = median_perimeter(pieces);
   const std::vector<PairResult> best = best_of(pairs, 2 * pieces.size());
-  double most = -1.0;
+  double most = -1.0 - kCoarser;
   double step = length;
   for (const double samples : options.samples) {
     const double trial = length / samples;
     const std::vector<Link> links = links_at(silhouettes(pieces, trial), best, kTolerance * trial, options);
     const double information = total_information(links, pieces.size());
-    if (information <= most) continue;
+    if (information <= most + kCoarser) continue;
     most = information;
     step = trial;
   }
@@ -150,11 +165,7 @@ void add_links(LinkedPieces& linked, const std::vector<PairResult>& pairs, const
 
 bool lies_so(const Link& link, const LinkedPieces& pieces, const Layout& placed) {
   if (placed.group(link.a) != placed.group(link.b)) return false;
-  const Planar there = inverse(placed.pose(link.a)) * placed.pose(link.b);
-  if (angle_between(link.pose, there) >= kSameTurn) return false;
-  const Silhouette& shape = pieces.shapes[link.b];
-  const glm::dvec2 centre = 0.5 * (shape.low + shape.high);
-  return glm::distance(link.pose(centre), there(centre)) < kSameShift * glm::distance(shape.low, shape.high);
+  return same_place(pieces.shapes[link.b], link.pose, inverse(placed.pose(link.a)) * placed.pose(link.b));
 }
 
 std::vector<std::vector<double>> similarity(const LinkedPieces& pieces) {

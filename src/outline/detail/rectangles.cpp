@@ -18,6 +18,7 @@ constexpr double kRough = 0.01;       // of the perimeter: corners are looked fo
 constexpr double kLean = 0.0875;      // cosine of the corners' angles, at most: 5 degrees
 constexpr double kCorner = 0.1;       // share of a side at its ends that may be rounded
 constexpr double kStraight = 0.8;     // rms distance of a side's points from an even bow, pixels, at most
+constexpr double kBow = 0.005;        // of a side's length: how far its middle lies off its ends, at most
 constexpr int kFewest = 60;           // points of a side: of smaller outlines nothing is told
 constexpr double kLeastOfHole = 0.5;  // area of a hole that a rectangle may come from, share of its own
 constexpr std::size_t kNamed = 3;     // of those that are left out
@@ -26,12 +27,14 @@ using Corners = std::array<glm::dvec2, 4>;
 
 /// The points beside a side but for its ends: along it from -1 to 1, and their distances from it.
 struct Side {
+  double length = 0.0;
   std::vector<double> along;
   std::vector<double> off;
 };
 
 std::array<Side, 4> sides_of(const std::vector<glm::dvec2>& border, const Corners& corners) {
   std::array<Side, 4> sides;
+  for (std::size_t k = 0; k < 4; ++k) sides[k].length = glm::distance(corners[k], corners[(k + 1) % 4]);
   for (const glm::dvec2& p : border) {
     double nearest = std::numeric_limits<double>::infinity();
     std::size_t best = 0;
@@ -54,7 +57,7 @@ std::array<Side, 4> sides_of(const std::vector<glm::dvec2>& border, const Corner
   return sides;
 }
 
-/// Whether a side is straight, or evenly bowed as by a lens.
+/// Whether a side is straight, or slightly and evenly bowed as by a lens.
 bool is_straight(const Side& side) {
   const auto count = static_cast<int>(side.along.size());
   if (count < kFewest) return false;
@@ -69,6 +72,7 @@ bool is_straight(const Side& side) {
   }
   cv::Mat factors;
   cv::solve(terms, off, factors, cv::DECOMP_SVD);
+  if (std::abs(factors.at<double>(2)) > kBow * side.length + kStraight) return false;
   return cv::norm(terms * factors - off) < kStraight * std::sqrt(static_cast<double>(count));
 }
 

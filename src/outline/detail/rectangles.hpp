@@ -5,7 +5,8 @@
 
 namespace rejoin::outline::detail {
 
-/// Whether a picture's outline is a rectangle, each of whose sides is straight to 0.8 pixels (rms) or evenly bowed as by a lens, perhaps with
+/// Whether a picture's outline is a rectangle, each of whose sides is straight to 0.8 pixels (rms) or evenly bowed by up to 0.5 % of its
+/// length, as by a lens, perhaps with
 /// rounded corners or a little askew.
 bool is_rectangle(const Outline& outline);
 
