@@ -283,7 +283,8 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
   if (!hypotheses.empty() && !context.cancelled()) {
     const Hypothesis& best = hypotheses.front();
     result.stability = probe(joint, best.pose, best.evidence);
-    const double next = strongest(std::span(hypotheses).subspan(1));
+    double next = 0.0;
+    for (const Hypothesis& rival : std::span(hypotheses).subspan(1)) next = std::max(next, rival.as_rival);
     if (result.stability) {
       result.stability->margin = log_odds(best.strength) - log_odds(next);
       if (best.strength > 0.0) result.stability->next_share = next / best.strength;

@@ -40,6 +40,21 @@ void tighten_one(Hypothesis& hypothesis, const Joint& joint) {
   }
 }
 
+/// With less information where only large, smooth shape agrees, loosely.
+Evidence told(const Evidence& evidence, const Joint& joint, const Rigid& pose) {
+  return strength(evidence) > 0.0 ? told_by_scale(evidence, joint.share_by_scale(pose)) : evidence;
+}
+
+/// With at most as much information as leaves a joint as likely as not, where what touches may be walls, or solid pieces lie loosely on each other.
+Evidence held_back(Evidence evidence, const Joint& joint) {
+  const bool solid = joint.thickness() <= 0.0;
+  if (!may_be_walls(evidence) && !(solid && lies_loosely(evidence))) return evidence;
+  const double part = kEven / std::max(kEven, strength(evidence));
+  evidence.information *= part;
+  evidence.near_information *= part;
+  return evidence;
+}
+
 }  // namespace
 
 std::vector<Pass> passes(double tolerance, int most) {
@@ -126,22 +141,16 @@ bool lies_loosely(const Evidence& evidence) {
 }
 
 Evidence weigh(const Evidence& evidence, const Joint& joint, const Rigid& pose) {
-  if (strength(evidence) <= 0.0) return evidence;
-  Evidence told = told_by_scale(evidence, joint.share_by_scale(pose));
-  const bool solid = joint.thickness() <= 0.0;
-  if (may_be_walls(told) || (solid && lies_loosely(told))) {
-    const double part = kEven / std::max(kEven, strength(told));
-    told.information *= part;
-    told.near_information *= part;
-  }
-  return told;
+  return held_back(told(evidence, joint, pose), joint);
 }
 
 void weigh(std::vector<Hypothesis>& list, const Joint& joint) {
   parallel_for(list.size(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
       Hypothesis& hypothesis = list[k];
-      hypothesis.evidence = weigh(hypothesis.evidence, joint, hypothesis.pose);
+      const Evidence evidence = told(hypothesis.evidence, joint, hypothesis.pose);
+      hypothesis.as_rival = std::min(hypothesis.strength, strength(evidence));
+      hypothesis.evidence = held_back(evidence, joint);
       hypothesis.strength = std::min(hypothesis.strength, strength(hypothesis.evidence));
     }
   });

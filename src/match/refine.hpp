@@ -13,8 +13,10 @@ struct Hypothesis {
   Rigid pose;
   Evidence evidence;
   double strength = 0;  ///< of the joint where it was aligned
-  int facet_a = -1;     ///< match/cuts.hpp; -1: not from a facet
+  int facet_a = -1;  ///< match/cuts.hpp; -1: not from a facet
   int facet_b = -1;
+  double as_rival =
+      0;  ///< the same without what weigh() holds back: of ridges in grooves, equal poses may lie on both sides of a limit
 };
 
 /// One round of alignment over all hypotheses that are left.

@@ -206,5 +206,19 @@ TEST(Refine, SolidPiecesThatLieLooselyNeedSkinThatGoesOn) {
   EXPECT_GT(score(), kSure);
 }
 
+// Ridges lie in grooves at many poses, some just within a limit and some just beyond: what is beyond still shows that the others are chance.
+TEST(Refine, WhatIsHeldBackStaysARival) {
+  const Pair pair = make_pair(6);
+  const Joint joint(pair.a, pair.b);
+  Evidence loose = joint.agreed_evidence(pair.truth);
+  loose.shared_area = loose.contact_area / 0.8;
+  loose.continuation = 1.0;
+  std::vector<Hypothesis> list{{pair.truth, loose, strength(loose)}};
+  ASSERT_GT(list[0].strength, 2.0 * kEven);
+  weigh(list, joint);
+  EXPECT_LE(list[0].strength, kEven);
+  EXPECT_GT(list[0].as_rival, 2.0 * kEven);
+}
+
 }  // namespace
 }  // namespace rejoin::match
