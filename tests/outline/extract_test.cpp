@@ -130,24 +130,41 @@ TEST(Extract, PrintAtTheBorderIsPartOfThePiece) {
   }
 }
 
-// The shadow, 30 % at its darkest, reaches 14 pixels beyond the disc on one side.
-TEST(Extract, ShadowIsNoPartOfThePiece) {
-  const Folder folder;
+/// A disc on a plain background with a shadow, 30 % at its darkest, that reaches 14 pixels beyond it on one side.
+/// \param noise  deviation of every channel, of 1   \param behind  blue, green and red of the background, 0..1
+cv::Mat shadowed_disc(const cv::Vec3d& behind, double noise) {
   const cv::Mat cover = disc({150, 130});
   cv::Mat shadow;
   cv::warpAffine(cover, shadow, cv::Matx23d(1, 0, 6, 0, 1, 4), cover.size());
   cv::GaussianBlur(shadow, shadow, cv::Size(), 5.0);
-  cv::Mat image = painted(cover, {0.5, 0.4, 0.3}, {0.9, 0.9, 0.9}, 255, CV_8UC3);
+  cv::Mat image = painted(cover, {0.5, 0.4, 0.3}, behind, 255, CV_8UC3);
+  cv::RNG random(5);
   for (int y = 0; y < image.rows; ++y) {
     for (int x = 0; x < image.cols; ++x) {
       const double light = 1.0 - 0.3 * shadow.at<float>(y, x) * (1.0 - cover.at<float>(y, x));
-      image.at<cv::Vec3b>(y, x) *= light;
+      auto& pixel = image.at<cv::Vec3b>(y, x);
+      for (int c = 0; c < 3; ++c)
+        pixel[c] = cv::saturate_cast<uchar>(light * pixel[c] + 255.0 * random.gaussian(noise));
     }
   }
-  cv::imwrite(folder.file("shadow.png"), image);
+  return image;
+}
+
+TEST(Extract, ShadowIsNoPartOfThePiece) {
+  const Folder folder;
+  cv::imwrite(folder.file("shadow.png"), shadowed_disc({0.9, 0.9, 0.9}, 0.0));
   const Extraction found = extract(folder.file("shadow.png"));
   ASSERT_EQ(found.pieces.size(), 1U);
   expect_disc(found.pieces[0], 1.0);
+}
+
+// What a channel that is weak in the background has left of the light is mostly noise.
+TEST(Extract, ShadowOnANoisyBoardOfAStrongColourIsNoPartOfThePiece) {
+  const Folder folder;
+  cv::imwrite(folder.file("shadow.png"), shadowed_disc({0.75, 0.35, 0.1}, 0.025));
+  const Extraction found = extract(folder.file("shadow.png"));
+  ASSERT_EQ(found.pieces.size(), 1U);
+  expect_disc(found.pieces[0], 2.0);
 }
 
 TEST(Extract, BedOfAScannerInADarkFrameIsToldAsARectangle) {

@@ -30,6 +30,8 @@ constexpr float kShadowsFall = 0.25F;
 constexpr float kDarkestShadow = 0.35F;
 /// in equal parts of each channel to within this,
 constexpr float kSameHue = 0.12F;
+/// where a channel that is weaker than this share of the strongest counts as if it were that, for its noise does,
+constexpr float kWeak = 0.5F;
 /// and changes by less than this from pixel to pixel.
 constexpr float kSoft = 0.075F;
 /// A pixel of the frame is background if it is this much nearer to it than one of the next few inwards; print narrower than kStroke
@@ -71,7 +73,7 @@ float steepness(const cv::Mat& distance, int x, int y) {
   return std::sqrt(across * across + down * down);
 }
 
-/// Shares of the background's light that a pixel has left, by channel, as their mean and what each is off it, as a share of it.
+/// Shares of the background's light that a pixel has left, by channel, as their mean and what each is off it, as a share of it.  Weak channels: see kWeak.
 struct Shade {
   float light = 0.0F;
   cv::Vec3f hue;
@@ -79,11 +81,11 @@ struct Shade {
 
 /// \return nothing if no shadow is like that
 std::optional<Shade> shade_of(const cv::Vec3f& pixel, const cv::Vec3f& behind) {
+  const float least = kWeak * std::max({behind[0], behind[1], behind[2]});
+  if (least <= 0.0F) return {};
+  const float share = std::max(0.0F, pixel.dot(behind) / behind.dot(behind));
   cv::Vec3f left;
-  for (int c = 0; c < 3; ++c) {
-    if (behind[c] <= 0.0F) return {};
-    left[c] = pixel[c] / behind[c];
-  }
+  for (int c = 0; c < 3; ++c) left[c] = share + (pixel[c] - share * behind[c]) / std::max(behind[c], least);
   const float low = std::min({left[0], left[1], left[2]});
   const float high = std::max({left[0], left[1], left[2]});
   if (low <= kDarkestShadow || high >= 1.0F || high - low >= kSameHue) return {};
