@@ -3,6 +3,7 @@
 #include "cli/json_values.hpp"
 #include "cli/outline_command.hpp"
 #include "core/version.hpp"
+#include "outline/polygon.hpp"
 #include "outline/stitch.hpp"
 
 namespace rejoin::cli {
@@ -10,12 +11,21 @@ namespace {
 
 using nlohmann::ordered_json;
 
+/// Where a piece is found in its file.
+void add_origin(const outline::Piece& piece, ordered_json& json) {
+  const glm::dvec2 inside = outline::inner_point(piece.outline.points);
+  json["inside"] = {inside.x, inside.y};
+  if (!piece.outline.label.empty()) json["label"] = piece.outline.label;
+}
+
 ordered_json piece_json(const outline::Piece& piece) {
-  return {{"path", piece.path},
-          {"name", piece.name},
-          {"points", piece.outline.points.size()},
-          {"perimeter", outline::perimeter(piece.outline.points)},
-          {"area", outline::signed_area(piece.outline.points)}};
+  ordered_json json = {{"path", piece.path},
+                       {"name", piece.name},
+                       {"points", piece.outline.points.size()},
+                       {"perimeter", outline::perimeter(piece.outline.points)},
+                       {"area", outline::signed_area(piece.outline.points)}};
+  add_origin(piece, json);
+  return json;
 }
 
 ordered_json candidate_json(const outline::Piece& a, const outline::Piece& b,
@@ -86,6 +96,7 @@ std::string assembly_json(const outline::PieceSet& set, const outline::Assembly&
     const outline::Placement& placement = assembly.placements[i];
     fragments[pieces[i].name] = {
         {"pose", to_json(placement.pose)}, {"group", placement.group}, {"confidence", placement.confidence}};
+    add_origin(pieces[i], fragments[pieces[i].name]);
   }
   ordered_json joins = ordered_json::array();
   for (const outline::AssemblyJoin& join : assembly.joins) {

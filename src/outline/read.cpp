@@ -95,6 +95,7 @@ Outlines read_outlines(const std::string& path, Kind kind, std::vector<std::stri
   for (detail::Rings& rings : all) {
     try {
       outlines.push_back(outline_of(rings, rings.place.empty() ? path : path + ", " + rings.place, notes));
+      outlines.back().label = rings.label;
     } catch (const InputError& error) {
       notes.push_back(fmt::format("{} (left out)", error.what()));
       if (!first_problem) first_problem = std::current_exception();

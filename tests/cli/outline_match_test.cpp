@@ -52,6 +52,27 @@ TEST(OutlineMatch, APieceAndItsCopyAreToldAndNoJoin) {
   EXPECT_TRUE(match["pose"].is_null());
 }
 
+TEST(OutlineMatch, TellsWhereAPieceLiesAndWhatItsFileCallsIt) {
+  const TemporaryFolder folder;
+  const auto square = [&](const std::string& name, const std::string& properties, const std::string& low,
+                          const std::string& high) {
+    write_file(folder / name, R"({"type": "Feature", )" + properties +
+                                  R"("geometry": {"type": "Polygon", "coordinates": [[[)" + low + ", 0], [" +
+                                  high + ", 0], [" + high + ", 5], [" + low + ", 8]]]}}");
+    return folder / name;
+  };
+  const std::string a = square("a.geojson", R"("properties": {"name": "Uri"}, )", "100", "104");
+  const std::string b = square("b.geojson", "", "200", "204");
+  const Finished done = run({"outline", "match", a, b, "--json", "-"});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const json match = json::parse(done.out);
+  EXPECT_EQ(match["a"]["label"], "Uri");
+  EXPECT_FALSE(match["b"].contains("label"));
+  EXPECT_GT(match["a"]["inside"][0], 100.0);
+  EXPECT_LT(match["a"]["inside"][0], 104.0);
+  EXPECT_GT(match["b"]["inside"][0], 200.0);
+}
+
 TEST(OutlineMatch, APictureThatIsCutShortIsRefusedInOneLine) {
   const TemporaryFolder folder;
   const std::string good = good_picture(folder);

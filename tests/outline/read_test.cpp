@@ -10,6 +10,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include <fmt/core.h>
+
 #include "core/error.hpp"
 #include "core/files.hpp"
 #include "read_files.hpp"
@@ -70,6 +72,22 @@ TEST_F(Read, MapsAndTablesHaveYUpAndDrawingsDown) {
           .pieces[0]
           .y_up);
   EXPECT_FALSE(read_pieces(write("a.svg", "<svg><rect width='2' height='2'/></svg>")).pieces[0].y_up);
+}
+
+TEST_F(Read, FeaturesOfGeoJsonKeepTheirNames) {
+  const auto feature = [](const std::string& head, double side) {
+    return fmt::format(
+        R"({{"type":"Feature",{0}"geometry":{{"type":"Polygon","coordinates":[[[0,0],[{1},0],[{1},{1}],[0,{1}]]]}}}})",
+        head, side);
+  };
+  const std::string text = fmt::format(R"({{"type":"FeatureCollection","features":[{},{},{}]}})",
+                                       feature(R"("id":7,"properties":{"NAME":"Small"},)", 1.0),
+                                       feature(R"("id":7,"properties":null,)", 2.0), feature("", 3.0));
+  const PieceSet set = read_pieces(write("a.geojson", text));
+  ASSERT_EQ(set.pieces.size(), 3U);
+  EXPECT_EQ(set.pieces[0].outline.label, "");
+  EXPECT_EQ(set.pieces[1].outline.label, "7");
+  EXPECT_EQ(set.pieces[2].outline.label, "Small");
 }
 
 TEST_F(Read, BrokenGeoJsonIsRefused) {

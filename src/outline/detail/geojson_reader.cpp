@@ -15,6 +15,18 @@ using nlohmann::json;
 
 constexpr const char* kMend = "give a GeoJSON file with Polygon or MultiPolygon geometries";
 
+/// What a feature is called: by its property "name", in small letters or not, else by its id; empty: nothing.
+std::string label_of(const json& feature) {
+  const auto text = [](const json& value) {
+    return value.is_string() ? value.get<std::string>() : value.is_number() ? value.dump() : "";
+  };
+  if (feature.contains("properties") && feature["properties"].is_object()) {
+    for (const auto& [key, value] : feature["properties"].items())
+      if ((key == "name" || key == "Name" || key == "NAME") && !text(value).empty()) return text(value);
+  }
+  return feature.contains("id") ? text(feature["id"]) : "";
+}
+
 class Reader {
  public:
   explicit Reader(const std::string& path) : path_(path) {}
@@ -25,7 +37,10 @@ class Reader {
     const std::string type = typed ? value["type"].get<std::string>() : "";
     if (type == "FeatureCollection") return read_all(value, "features");
     if (type == "GeometryCollection") return read_all(value, "geometries");
-    if (type == "Feature" && value.contains("geometry")) return read(value["geometry"]);
+    if (type == "Feature" && value.contains("geometry")) {
+      label_ = label_of(value);
+      return read(value["geometry"]);
+    }
     if (type == "Polygon") return add(member(value, "coordinates"));
     if (type == "MultiPolygon") {
       for (const json& polygon : member(value, "coordinates")) add(polygon);
@@ -54,6 +69,7 @@ class Reader {
     Rings rings;
     rings.y_up = true;
     rings.place = fmt::format("polygon {}", result.size() + 1);
+    rings.label = label_;
     for (const json& ring : polygon) rings.rings.push_back(points(ring));
     result.push_back(std::move(rings));
   }
@@ -71,6 +87,7 @@ class Reader {
   }
 
   const std::string& path_;
+  std::string label_;  // of the feature that is read
 };
 
 /// Whether the file says that its coordinates are longitude and latitude: "urn:ogc:def:crs:OGC:1.3:CRS84", "EPSG:4326".

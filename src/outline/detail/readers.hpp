@@ -14,6 +14,7 @@ struct Rings {
   std::vector<std::vector<glm::dvec2>> rings;
   std::string place;  ///< of the border in the file, "polygon 3", for messages
   bool y_up = false;
+  std::string label = {};  ///< Outline::label
 };
 
 /// y points up, but where the first line calls it "y_down".
