@@ -51,18 +51,17 @@ class OutlineShatterCommand final : public Command {
 
   ExitCode run(Console& console, Context& context) override {
     const outline::ShatterOptions options = complete_options();
-    const OutputFolder output(folder_);
+    OutputFolder output(folder_);
     context.report("breaking", 0.0);
     const outline::Shattered broken = outline::shatter(options, context);
     if (context.cancelled()) return interrupted(console);
     const std::string ending = format_ == Format::Png ? ".png" : ".csv";
-    const std::filesystem::path folder(folder_);
     for (std::size_t n = 0; n < broken.pieces.size(); ++n) {
       if (context.cancelled()) return interrupted(console);
       context.report("writing pieces", static_cast<double>(n) / static_cast<double>(broken.pieces.size()));
-      write_file(folder / (broken.pieces[n].piece.name + ending), content_of(broken.pieces[n], options));
+      write_file(output.file(broken.pieces[n].piece.name + ending), content_of(broken.pieces[n], options));
     }
-    const std::string truth = (folder / "truth.json").string();
+    const std::string truth = output.file("truth.json").string();
     write_file(truth, outline::truth_json(broken, options, ending));
     console.result(
         fmt::format("{} of {}, {}\nwrote {}\n", counted(broken.pieces.size(), "piece"),

@@ -118,11 +118,14 @@ OutputFolder::OutputFolder(const fs::path& path) : path_(path), exceptions_(std:
 OutputFolder::~OutputFolder() {
   std::error_code ignored;
   if (std::uncaught_exceptions() > exceptions_) {
-    for (fs::directory_iterator entry(path_, ignored), end; !ignored && entry != end;
-         entry.increment(ignored))
-      fs::remove_all(entry->path(), ignored);
+    for (const fs::path& file : files_) fs::remove(file, ignored);
   }
   if (made_) fs::remove(path_, ignored);  // unless it holds something
+}
+
+fs::path OutputFolder::file(const std::string& name) {
+  files_.push_back(path_ / name);
+  return files_.back();
 }
 
 void require_apart_from_run(const std::string& option, const fs::path& output, const fs::path& run,

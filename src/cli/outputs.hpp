@@ -17,8 +17,8 @@ namespace rejoin::cli {
 void require_apart(const std::string& option, const std::filesystem::path& output,
                    const std::filesystem::path& input);
 
-/// A new or empty folder for outputs.  If an exception ends it, what was written goes, so that the same command can be given again;
-/// a folder that was made for outputs goes again if it holds none.
+/// A new or empty folder for outputs.  If an exception ends it, what was written goes, so that the same command can be given again, and
+/// nothing else that came to lie there meanwhile; a folder that was made for outputs goes again if it holds nothing.
 class OutputFolder {
  public:
   /// \throws IoError as require_empty_folder()
@@ -27,9 +27,14 @@ class OutputFolder {
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
 
+  /// Names an output in the folder, right before it is written.
+  /// \return its path
+  std::filesystem::path file(const std::string& name);
+
  private:
   std::filesystem::path path_;
-  bool made_ = false;  ///< for the outputs
+  std::vector<std::filesystem::path> files_;  ///< that are outputs
+  bool made_ = false;                         ///< for the outputs
   int exceptions_;
 };
 

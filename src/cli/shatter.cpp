@@ -83,7 +83,7 @@ class ShatterCommand final : public Command {
   }
 
   ExitCode run(Console& console, Context& context) override {
-    const OutputFolder output(out_);
+    OutputFolder output(out_);
     options_.erosion = erosion_ / 100.0;
     options_.noise = noise_ / 100.0;
     options_.correlated = correlated_ / 100.0;
@@ -103,11 +103,10 @@ class ShatterCommand final : public Command {
           "wall, or the breaks are too worn; give a smaller --spacing or --erosion",
           path_, spacing_));
     }
-    const std::filesystem::path folder(out_);
     for (std::size_t k = 0; k < shattered.pieces.size(); ++k) {
-      mesh::save(folder / file_name(k, shattered.pieces.size()), shattered.pieces[k].scan);
+      mesh::save(output.file(file_name(k, shattered.pieces.size())), shattered.pieces[k].scan);
     }
-    const std::string truth = (folder / "truth.json").string();
+    const std::string truth = output.file("truth.json").string();
     write_file(truth, text_of(truth_json(path_, options_, shattered)));
     console.result(fmt::format("{}, {}\nwrote {}\n", counted(shattered.pieces.size(), "fragment"),
                                counted(shattered.contacts.size(), "join"), truth));

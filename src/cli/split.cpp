@@ -138,7 +138,7 @@ class SplitCommand final : public Command {
     require_different_stems(scans_);
     if (options_.cut && options_.table == mesh::SplitOptions::TableUse::No)
       throw UsageError("--cut", "is a height above a table", "leave it or --table no away");
-    const OutputFolder output(out_);
+    OutputFolder output(out_);
     for (const auto& file : {json_, png_}) {
       if (file) require_writable_file(*file);
     }
@@ -146,7 +146,7 @@ class SplitCommand final : public Command {
     bool failed = false;
     for (const std::string& path : scans_) {
       context.report("split " + path, 0.0);
-      if (!split_one(path, console)) failed = true;
+      if (!split_one(path, output, console)) failed = true;
       if (!context.cancelled()) continue;
       console.warning("interrupted; the pieces of further scans are not written");
       return kInterrupted;
@@ -161,7 +161,7 @@ class SplitCommand final : public Command {
 
  private:
   /// \return false: the scan cannot be used, which is told
-  bool split_one(const std::string& path, Console& console) {
+  bool split_one(const std::string& path, OutputFolder& output, Console& console) {
     mesh::Loaded scan;
     mesh::Split split;
     try {
@@ -183,7 +183,7 @@ class SplitCommand final : public Command {
     }
     for (const std::string& warning : scan.warnings) console.warning(warning);
     for (std::size_t k = 0; k < split.pieces.size(); ++k)
-      mesh::save(fs::path(out_) / file_name(path, k + 1), split.pieces[k]);
+      mesh::save(output.file(file_name(path, k + 1)), split.pieces[k]);
     console.result(summary(path, scan.mesh, split) + table_of(path, split.pieces));
     result_.push_back(to_json(path, split));
     result_.back()["warnings"] = scan.warnings;

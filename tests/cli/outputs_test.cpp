@@ -1,10 +1,12 @@
 /// Outputs that would take what is there already, and places that are made for them.
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -124,6 +126,19 @@ TEST_F(Outputs, FolderOfPiecesThatWereNotAllWrittenIsEmptyAgain) {
   fs::create_directory(pieces);
   told_of_limit(20, arguments);
   EXPECT_TRUE(fs::is_empty(pieces));
+}
+
+TEST_F(Outputs, WhatTheUserPutIntoTheFolderMeanwhileStaysWhereTheCommandFails) {
+  const std::string open = folder / "open.obj";
+  const std::string pieces = folder / "pieces";
+  ASSERT_EQ(mkfifo(open.c_str(), 0600), 0);
+  Running shatter({"shatter", open, "--out", pieces});
+  std::ofstream pipe(open);  // waits for the program to read, which has the folder by then
+  write_file(pieces + "/notes.txt", "precious");
+  pipe << "v 0 0 0\nv 9 0 0\nv 0 9 0\nv 9 9 1\nv 5 20 1\nf 1 2 3\nf 2 4 3\nf 3 4 5\n";
+  pipe.close();
+  EXPECT_EQ(shatter.finish().exit_code, 1);
+  EXPECT_EQ(read_file(pieces + "/notes.txt"), "precious");
 }
 
 TEST_F(Outputs, WhatIsLargerThanTheUserMayWriteIsToldAndLeavesNothing) {
