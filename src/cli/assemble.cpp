@@ -116,7 +116,7 @@ class AssembleCommand final : public Command {
   std::filesystem::path kept_run() const { return std::filesystem::path(*out_) / "run"; }
 
   /// Matching a folder of scans takes long: what comes of it must have a place.
-  void require_outputs() const {
+  void require_outputs() {
     std::error_code problem;
     if (!std::filesystem::exists(input_, problem)) {
       throw IoError(input_, "is not there", "give a run of rejoin batch, or the folder of the scans");
@@ -133,6 +133,7 @@ class AssembleCommand final : public Command {
     if (out_) {
       require_models_of_assembly(*out_);
       require_writable_folder(*out_);  // before --json, which may lie in it
+      hold_.emplace(*out_);
     }
     if (json_) {
       require_apart_from_run("--json", *json_,
@@ -224,7 +225,8 @@ class AssembleCommand final : public Command {
   std::optional<std::string> constraints_;
   std::optional<std::string> json_;
   std::optional<std::string> out_;
-  NamedConstraints named_;  ///< what --constraints asks for
+  std::optional<OutputHold> hold_;  ///< of out_
+  NamedConstraints named_;          ///< what --constraints asks for
   Hints hints_;
   assembly::Options options_;
 };

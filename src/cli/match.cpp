@@ -186,13 +186,14 @@ class MatchCommand final : public Command {
     }
   }
 
-  void require_out() const {
+  void require_out() {
     std::vector<std::string> inputs = painted_;
     inputs.insert(inputs.end(), {path_a_, path_b_});
     for (const std::filesystem::path& file : report::match_outputs(*out_)) {
       for (const std::string& input : inputs) require_apart("--out", file, input);
     }
     require_writable_folder(*out_);
+    hold_.emplace(*out_);
   }
 
   std::vector<Rigid> proposals(const match::Fragment& a, const match::Fragment& b, Console& console,
@@ -273,6 +274,7 @@ class MatchCommand final : public Command {
   std::vector<std::string> painted_;
   std::optional<std::string> json_;
   std::optional<std::string> out_;
+  std::optional<OutputHold> hold_;  ///< of out_
   std::optional<std::string> near_;
   bool by_rims_ = false;
   MatchOptions options_;

@@ -1,7 +1,11 @@
 #include "cli/output_stage.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <system_error>
 
 #include "core/error.hpp"
@@ -35,6 +39,17 @@ void move_file(const fs::path& from, const fs::path& to) {
 }
 
 }  // namespace
+
+// Not closed by exec: what removes a stage after the process has ended (RemoveWhenKilled) holds the folder until it is done.
+OutputHold::OutputHold(const fs::path& folder) : folder_(open(folder.c_str(), O_RDONLY | O_DIRECTORY)) {
+  if (folder_ < 0 || flock(folder_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  close(folder_);
+  throw IoError(folder.string(), "is written by another rejoin", "wait for its end, or name another folder");
+}
+
+OutputHold::~OutputHold() {
+  if (folder_ >= 0) close(folder_);
+}
 
 OutputStage::OutputStage(const fs::path& folder)
     : folder_(folder), path_(made_anew(folder / kStageName)), killed_(fs::absolute(path_)) {}

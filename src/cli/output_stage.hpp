@@ -8,11 +8,26 @@
 
 namespace rejoin::cli {
 
+/// Holds a folder of outputs against other commands of this program, whose files would be mixed with these.  The system lets go of it
+/// when the process ends, however it ends.  On file systems without locks it holds nothing.
+class OutputHold {
+ public:
+  /// \param folder  of the outputs; it exists
+  /// \throws IoError another process holds it
+  explicit OutputHold(const std::filesystem::path& folder);
+  ~OutputHold();
+  OutputHold(const OutputHold&) = delete;
+  OutputHold& operator=(const OutputHold&) = delete;
+
+ private:
+  int folder_;  ///< below 0: it cannot be opened
+};
+
 /// A folder within that of the outputs, where new files are made.  Whatever ends the program before publish() leaves the earlier
 /// files as they were, and the stage goes.
 class OutputStage {
  public:
-  /// \param folder  of the outputs; it exists
+  /// \param folder  of the outputs; it exists and is held
   /// \throws IoError the stage cannot be made
   explicit OutputStage(const std::filesystem::path& folder);
   ~OutputStage();

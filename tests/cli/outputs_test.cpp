@@ -141,6 +141,25 @@ TEST_F(Outputs, WhatTheUserPutIntoTheFolderMeanwhileStaysWhereTheCommandFails) {
   EXPECT_EQ(read_file(pieces + "/notes.txt"), "precious");
 }
 
+TEST_F(Outputs, FolderThatAnotherCommandWritesIsRefusedBeforeAnyWork) {
+  const std::string out = folder / "out";
+  const std::string slow = folder / "slow.ply";
+  ASSERT_EQ(mkfifo(slow.c_str(), 0600), 0);
+  Running match({"match", slow, b, "--out", out});
+  std::ofstream pipe(slow);  // waits for the program to read, which holds the folder by then
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"match", a, b, "--out", out}, {"assemble", run_, "--out", out}}) {
+    const Finished refused = run(command);
+    EXPECT_EQ(refused.exit_code, 1) << refused.err;
+    EXPECT_NE(refused.err.find(out + ": is written by another rejoin"), std::string::npos) << refused.err;
+    EXPECT_TRUE(is_one_line(refused.err)) << refused.err;
+  }
+  pipe.close();
+  match.finish();
+  const Finished later = run({"match", folder / "missing.ply", b, "--out", out});
+  EXPECT_NE(later.err.find("missing.ply"), std::string::npos) << later.err;
+}
+
 TEST_F(Outputs, WhatIsLargerThanTheUserMayWriteIsToldAndLeavesNothing) {
   const std::string colours = folder / "colours.ply";
   const std::string told = told_of_limit(1, "facets " + a + " --ply " + colours);
