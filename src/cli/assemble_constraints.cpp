@@ -134,9 +134,23 @@ class Reader {
                            : rigid_from_json(rows);
       if (!pose) fail(fmt::format("{} {}", place, kNoRigid));
       asked_.named.poses.emplace_back(name, *pose);
-      if (number) result.emplace_back(*number, *pose);
+      if (number && !is_given(result, *number, name, *pose)) result.emplace_back(*number, *pose);
     }
     return result;
+  }
+
+  /// Whether a pose was given under another name of the scan; it has to be the same.
+  bool is_given(const std::vector<std::pair<std::size_t, Rigid>>& poses, std::size_t number,
+                const std::string& name, const Rigid& pose) const {
+    const auto earlier =
+        std::ranges::find(poses, number, [](const auto& numbered) { return numbered.first; });
+    if (earlier == poses.end()) return false;
+    if (earlier->second.rotation != pose.rotation || earlier->second.translation != pose.translation) {
+      const auto same = std::ranges::find(asked_.named.poses, meant(name),
+                                          [this](const auto& named) { return meant(named.first); });
+      fail(fmt::format("gives {} and {} different poses, but they are the same scan", same->first, name));
+    }
+    return true;
   }
 
   const std::string& path_;

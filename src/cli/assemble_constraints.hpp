@@ -41,7 +41,8 @@ ConstraintsFile open_constraints(const std::string& path);
 /// \param unusable  other fragments, with the reasons: what names one of them is left out
 /// \param copies    other names of fragments, with those that stand for them and are meant
 /// \throws IoError a file of a pose cannot be read
-/// \throws InputError it is no such file, names a fragment that is not there, a fragment with itself, or a pair as both
+/// \throws InputError it is no such file, names a fragment that is not there, a fragment with itself, a pair as both, or different
+///         poses of a scan and its copy
 AskedConstraints read_constraints(const ConstraintsFile& file, const std::vector<std::string>& names,
                                   const std::map<std::string, std::string>& unusable = {},
                                   const std::map<std::string, std::string>& copies = {});

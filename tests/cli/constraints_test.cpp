@@ -125,6 +125,19 @@ TEST(ReadConstraints, CopiesAreTheFragmentsThatStandForThem) {
   EXPECT_NE(asked.left_out[0].find("\"bad.ply\" can have no place (is no mesh)"), std::string::npos)
       << asked.left_out[0];
   EXPECT_THROW(read_with_copy(R"({"must_join": [["copy.ply", "a.ply"]]})"), InputError);
+  const std::string pose = "[[0, -1, 0, 5], [1, 0, 0, 6], [0, 0, 1, 7], [0, 0, 0, 1]]";
+  const AskedConstraints twice =
+      read_with_copy(R"({"poses": {"copy.ply": )" + pose + R"(, "a.ply": )" + pose + "}}");
+  EXPECT_EQ(twice.constraints.pinned.size(), 1U) << "one fragment has one place";
+  EXPECT_EQ(twice.named.poses.size(), 2U);
+  try {
+    read_with_copy(R"({"poses": {"a.ply": )" + pose +
+                   R"(, "copy.ply": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}})");
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("gives a.ply and copy.ply different poses"), std::string::npos)
+        << error.what();
+  }
   EXPECT_THROW(
       read_with_copy(R"({"must_join": [["copy.ply", "c.ply"]], "must_not_join": [["c.ply", "a.ply"]]})"),
       InputError);
