@@ -65,7 +65,7 @@ std::size_t Cracks::piece_seen_at(const glm::dvec3& bent_point, int next) const 
 
 std::optional<Cracks> choose_cracks(const Inside& inside, const mesh::Samples& surface,
                                     const glm::dvec3& origin, std::size_t count, const Noise& warp,
-                                    std::uint64_t seed) {
+                                    std::uint64_t seed, const Context& context) {
   if (inside.points.empty()) return std::nullopt;
   Cracks cracks(warp);
   const Links links = links_within(inside.points, kLinked * inside.spacing);
@@ -76,6 +76,8 @@ std::optional<Cracks> choose_cracks(const Inside& inside, const mesh::Samples& s
   Random random(seed, 14);
   const double least = kLeast * static_cast<double>(label.size()) / static_cast<double>(count);
   for (std::size_t tries = 0; cracks.pieces() < count && tries < kTries * count; ++tries) {
+    if (context.cancelled()) return std::nullopt;
+    context.report(kChoosing, static_cast<double>(cracks.pieces()) / static_cast<double>(count));
     const std::size_t at = random.below(static_cast<std::uint32_t>(label.size()));
     const auto nearest = skin.nearest(inside.points[at]);
     if (!nearest) return std::nullopt;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/context.hpp"
 #include "mesh/samples.hpp"
 #include "shatter/division.hpp"
 #include "shatter/noise.hpp"
@@ -61,9 +62,9 @@ struct Inside {
 /// Cracks into `count` pieces, square to the surface where they begin, through large pieces rather than small ones, such that every
 /// piece hangs together.
 /// \param surface  samples   \param origin  of both kinds of points
-/// \return nullopt if too few were found
+/// \return nullopt if too few were found, or the context was cancelled
 std::optional<Cracks> choose_cracks(const Inside& inside, const mesh::Samples& surface,
                                     const glm::dvec3& origin, std::size_t count, const Noise& warp,
-                                    std::uint64_t seed);
+                                    std::uint64_t seed, const Context& context);
 
 }  // namespace rejoin::shatter

@@ -3,8 +3,12 @@
 
 #include <cstddef>
 #include <glm/glm.hpp>
+#include <string_view>
 
 namespace rejoin::shatter {
+
+/// The stage of the work in which a division is chosen, as Context::report() takes it.
+inline constexpr std::string_view kChoosing = "choose breaks";
 
 /// Distance from a point to the walls of one piece: the two nearest, and which piece is behind the nearest.
 struct Walls {

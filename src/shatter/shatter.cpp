@@ -64,12 +64,14 @@ mesh::RayScene make_scene(const mesh::Mesh& object) {
 /// The object, how it is divided and what was worn off.
 class Breaker {
  public:
-  Breaker(const std::string& name, const mesh::Mesh& object, const Options& options)
+  /// Of no use if the context was cancelled meanwhile.
+  Breaker(const std::string& name, const mesh::Mesh& object, const Options& options, const Context& context)
       : object_(object), options_(options), scene_(make_scene(object)), diameter_(mesh::diameter(object)) {
     const Noise warp{options.seed, kWarpWave * diameter_, options.roughness * kWarpAmplitude * diameter_,
                      1.5 * spacing()};
     const mesh::Samples samples = mesh::sample_surface(object, kSamples);
-    division_ = options.cracks ? cracks(samples, warp) : cells(samples, warp);
+    division_ = options.cracks ? cracks(samples, warp, context) : cells(samples, warp, context);
+    if (context.cancelled()) return;
     if (!division_)
       throw InputError(name, fmt::format("no cut into {} pieces was found", options.pieces),
                        "ask for fewer pieces");
@@ -109,25 +111,28 @@ class Breaker {
   }
 
  private:
-  std::unique_ptr<const Division> cells(const mesh::Samples& samples, const Noise& warp) const {
-    auto cells =
-        choose_cells(samples, object_.origin, static_cast<std::size_t>(options_.pieces), warp, options_.seed);
+  std::unique_ptr<const Division> cells(const mesh::Samples& samples, const Noise& warp,
+                                        const Context& context) const {
+    auto cells = choose_cells(samples, object_.origin, static_cast<std::size_t>(options_.pieces), warp,
+                              options_.seed, context);
     return cells ? std::make_unique<const Cells>(std::move(*cells)) : nullptr;
   }
 
-  std::unique_ptr<const Division> cracks(const mesh::Samples& samples, const Noise& warp) const {
-    auto cracks = choose_cracks(inside(), samples, object_.origin, static_cast<std::size_t>(options_.pieces),
-                                warp, options_.seed);
+  std::unique_ptr<const Division> cracks(const mesh::Samples& samples, const Noise& warp,
+                                         const Context& context) const {
+    auto cracks = choose_cracks(inside(context), samples, object_.origin,
+                                static_cast<std::size_t>(options_.pieces), warp, options_.seed, context);
     return cracks ? std::make_unique<const Cracks>(std::move(*cracks)) : nullptr;
   }
 
-  Inside inside() const {
+  Inside inside(const Context& context) const {
     const mesh::Box box = mesh::bounds(object_);
     const glm::dvec3 size(box.high - box.low);
     Random random(options_.seed, 13);
     Inside inside;
     double tries = 0.0;
     for (; tries < kTriesInside && inside.points.size() < kSamples; ++tries) {
+      if (context.cancelled()) return {};
       const glm::vec3 point =
           box.low + glm::vec3(size * glm::dvec3(random.uniform(), random.uniform(), random.uniform()));
       if (is_inside(point)) inside.points.push_back(point);
@@ -295,7 +300,8 @@ Shattered shatter(const std::string& name, const mesh::Mesh& object, const Optio
                   const Context& context) {
   require_closed(name, object);
   context.report("shatter", 0.0);
-  const Breaker breaker(name, object, options);
+  const Breaker breaker(name, object, options, context);
+  if (context.cancelled()) return {{}, {}, 0.0, true};
   Shattered result;
   result.diameter = breaker.diameter();
   std::map<std::pair<std::size_t, std::size_t>, double> areas;

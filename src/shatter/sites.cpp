@@ -36,7 +36,7 @@ std::vector<glm::dvec3> spread_sites(const mesh::Samples& samples, const glm::dv
 }  // namespace
 
 std::optional<Cells> choose_cells(const mesh::Samples& samples, const glm::dvec3& origin, std::size_t count,
-                                  const Noise& warp, std::uint64_t seed) {
+                                  const Noise& warp, std::uint64_t seed, const Context& context) {
   const Links links = links_within(samples.points, kLinked * samples.spacing);
   std::optional<Cells> best;
   std::size_t least_lost = samples.size();
@@ -47,6 +47,8 @@ std::optional<Cells> choose_cells(const mesh::Samples& samples, const glm::dvec3
   }
   Random random(seed, 11);
   for (int draw = 0; draw < kDraws && least_lost > 0; ++draw) {
+    if (context.cancelled()) return std::nullopt;
+    context.report(kChoosing, static_cast<double>(draw) / kDraws);
     Cells cells(spread_sites(samples, origin, count, random), warp);
     std::vector<std::size_t> label;
     label.reserve(bent.size());

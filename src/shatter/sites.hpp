@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/context.hpp"
 #include "mesh/samples.hpp"
 #include "shatter/cells.hpp"
 
@@ -14,8 +15,8 @@ namespace rejoin::shatter {
 /// \param samples  of the surface; at least count
 /// \param origin   of the samples
 /// \param warp     the cells' noise
-/// \return nullopt if no draw gives every cell some surface
+/// \return nullopt if no draw gives every cell some surface, or the context was cancelled
 std::optional<Cells> choose_cells(const mesh::Samples& samples, const glm::dvec3& origin, std::size_t count,
-                                  const Noise& warp, std::uint64_t seed);
+                                  const Noise& warp, std::uint64_t seed, const Context& context);
 
 }  // namespace rejoin::shatter

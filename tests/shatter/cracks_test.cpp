@@ -50,7 +50,7 @@ TEST(Cracks, ThereAreNoneWhereNothingLiesInside) {
   mesh::Samples skin;
   skin.points = {{0, 0, 0}};
   skin.normals = {{0, 0, 1}};
-  EXPECT_FALSE(choose_cracks({}, skin, {}, 2, Noise{}, 1));
+  EXPECT_FALSE(choose_cracks({}, skin, {}, 2, Noise{}, 1, Context()));
 }
 
 // A hollow ball: every sherd is one body with both walls, and all together are the ball.

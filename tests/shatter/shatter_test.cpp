@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "mesh/load.hpp"
+#include "shatter/division.hpp"
 
 namespace rejoin::shatter {
 namespace {
@@ -180,6 +182,23 @@ TEST(Shatter, EndsWhenCancelled) {
   Context context;
   context.cancel();
   EXPECT_TRUE(shatter("ball", mesh::test::icosphere(1.0F, 3), coarse(2), context).cancelled);
+}
+
+TEST(Shatter, EndsAtOnceWhenCancelledWhileItChoosesBreaks) {
+  for (const bool cracks : {false, true}) {
+    Options options = coarse(10000);  // more than such a ball can have
+    options.cracks = cracks;
+    Context* own = nullptr;
+    int reports = 0;
+    Context context([&](std::string_view stage, double /*fraction*/) {
+      if (stage != kChoosing) return;
+      ++reports;
+      own->cancel();
+    });
+    own = &context;
+    EXPECT_TRUE(shatter("ball", mesh::test::icosphere(1.0F, 3), options, context).cancelled) << cracks;
+    EXPECT_EQ(reports, 1) << cracks;
+  }
 }
 
 }  // namespace
