@@ -117,8 +117,8 @@ class Work {
     count_done();
     listener_.on_start(forgotten, progress_);
     for (const std::string& warning : options_.warnings) listener_.on_warning(warning, progress_);
-    for (const std::string& left_out :
-         {told_of_models(inputs_), told_of_folders(inputs_), told_of_formats(inputs_)}) {
+    for (const std::string& left_out : {told_of_models(inputs_), told_of_painted(inputs_),
+                                        told_of_folders(inputs_), told_of_formats(inputs_)}) {
       if (!left_out.empty()) listener_.on_warning(left_out, progress_);
     }
     for (const auto& [copy, first] : copies_) {

@@ -12,6 +12,7 @@
 #include <memory>
 #include <set>
 
+#include "batch/painted.hpp"
 #include "batch/shelf.hpp"
 #include "core/error.hpp"
 #include "core/files.hpp"
@@ -39,13 +40,32 @@ bool is_scan(const fs::directory_entry& entry) {
   return mesh::has_scan_name(entry.path());
 }
 
-/// The scans in a folder, not below it.
-std::vector<fs::path> scans_in(const fs::path& folder, std::error_code& problem) {
+/// The files in a folder, not below it, that have names of scans.
+std::vector<fs::path> files_in(const fs::path& folder, std::error_code& problem) {
   std::vector<fs::path> files;
   for (fs::directory_iterator entry(folder, problem), end; !problem && entry != end;
        entry.increment(problem)) {
     if (is_scan(*entry)) files.push_back(entry->path());
   }
+  return files;
+}
+
+/// The painted surfaces of the others, which rejoin facets wrote.
+std::set<std::string> painted_of(const std::vector<fs::path>& files) {
+  std::set<std::string> names;
+  for (const fs::path& file : files) names.insert(painted_name(file.filename().string()));
+  std::set<std::string> painted;
+  for (const fs::path& file : files) {
+    if (names.count(file.filename().string()) > 0) painted.insert(file.filename().string());
+  }
+  return painted;
+}
+
+/// The scans in a folder, not below it.
+std::vector<fs::path> scans_in(const fs::path& folder, std::error_code& problem) {
+  std::vector<fs::path> files = files_in(folder, problem);
+  const std::set<std::string> painted = painted_of(files);
+  std::erase_if(files, [&](const fs::path& file) { return painted.count(file.filename().string()) > 0; });
   return files;
 }
 
@@ -153,6 +173,17 @@ std::string told_of_models(const fs::path& folder) {
   return fmt::format(
       "{}: left out, as rejoin writes models of several fragments under such names (a scan needs another)",
       names);
+}
+
+std::string told_of_painted(const fs::path& folder) {
+  std::error_code ignored;
+  const std::set<std::string> painted = painted_of(files_in(folder, ignored));
+  if (painted.empty()) return "";
+  return fmt::format(
+      "{} in {} ({}{}) taken for no scan: rejoin facets writes painted breaks under such names, which "
+      "--facets "
+      "DIR uses (a scan needs another)",
+      counted(painted.size(), "file"), folder.string(), *painted.begin(), painted.size() == 1 ? "" : ", ...");
 }
 
 std::string told_of_folders(const fs::path& folder) {

@@ -14,7 +14,7 @@ namespace rejoin::batch {
 using Scans = std::map<std::string, std::filesystem::path>;
 
 /// All files in the folder whose extension is one that mesh::load() knows, without the models that `rejoin match` and `assemble`
-/// write.  Where it holds none, but folders with one scan each, however deep, as apps leave them: these scans by the folders' names.
+/// write, and without painted_name() of the others.  Where it holds none, but folders with one scan each, however deep, as apps leave them: these scans by the folders' names.
 /// \throws IoError     the folder cannot be read
 /// \throws InputError  it holds fewer than two scans, one whose name is no UTF-8, or folders of which one holds several
 Scans find_scans(const std::filesystem::path& folder);
@@ -24,6 +24,9 @@ std::vector<std::string> names_of(const Scans& scans);
 
 /// What to tell of the models in the folder that find_scans() leaves out; empty if there are none.
 std::string told_of_models(const std::filesystem::path& folder);
+
+/// What to tell of painted surfaces of scans that lie beside them, which find_scans() leaves out; empty if there are none.
+std::string told_of_painted(const std::filesystem::path& folder);
 
 /// What to tell of the folders below a folder of scans, however deep, that hold scans, which find_scans() leaves out; empty if there
 /// are none.  The surfaces that a run keeps are no scans; of folders below a link nothing is told.

@@ -49,6 +49,18 @@ TEST_F(Inputs, ScansAreFoundByExtensionInAnyCaseAndSorted) {
       << told_of_models(folder_);
 }
 
+TEST_F(Inputs, PaintedSurfacesBesideTheirScansAreNoScans) {
+  for (const char* name : {"a.ply", "a-facets.ply", "b.obj", "b-facets.ply", "cut-facets.ply"})
+    put(name, "x");
+  EXPECT_EQ(names_of(find_scans(folder_)), (std::vector<std::string>{"a.ply", "b.obj", "cut-facets.ply"}))
+      << "nothing is painted on a scan that is not there";
+  EXPECT_EQ(told_of_painted(folder_).find("2 files in "), 0U) << told_of_painted(folder_);
+  EXPECT_NE(told_of_painted(folder_).find("(a-facets.ply, ...) taken for no scan"), std::string::npos)
+      << told_of_painted(folder_);
+  for (const char* name : {"a-facets.ply", "b-facets.ply"}) fs::remove(folder_ / name);
+  EXPECT_EQ(told_of_painted(folder_), "");
+}
+
 TEST_F(Inputs, FoldersBelowWithScansAreTold) {
   put("a.ply", "x");
   for (const char* name : {"notes", "result", "fragments", ".Trash", "old", "old/run", "old/run/fragments"})
