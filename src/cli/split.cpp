@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -40,6 +41,20 @@ void require_different_stems(const std::vector<std::string>& scans) {
                        "split them into two folders, or rename one");
     }
   }
+}
+
+/// \throws UsageError the file may be that of a piece
+void require_no_piece(const std::string& option, const std::string& file, const fs::path& folder,
+                      const std::vector<std::string>& scans) {
+  std::error_code ignored;  // of a folder that is not there yet
+  const fs::path path = fs::weakly_canonical(fs::absolute(file), ignored);
+  if (path.parent_path() != fs::weakly_canonical(fs::absolute(folder) / "", ignored).parent_path()) return;
+  const bool may_be_piece = std::ranges::any_of(scans, [&](const std::string& scan) {
+    const std::string begin = fs::path(scan).stem().string() + "_";
+    return path.extension() == ".ply" && path.filename().string().starts_with(begin);
+  });
+  if (may_be_piece)
+    throw UsageError(file, "has a name that a piece may get", fmt::format("give {} another name", option));
 }
 
 std::string bounds_text(const mesh::Mesh& piece) {
@@ -138,6 +153,7 @@ class SplitCommand final : public Command {
     require_different_stems(scans_);
     if (options_.cut && options_.table == mesh::SplitOptions::TableUse::No)
       throw UsageError("--cut", "is a height above a table", "leave it or --table no away");
+    if (json_) require_no_piece("--json", *json_, out_, scans_);
     OutputFolder output(out_);
     for (const auto& file : {json_, png_}) {
       if (file) require_writable_file(*file);

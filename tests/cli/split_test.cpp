@@ -139,6 +139,19 @@ TEST_F(SplitCommand, TakesNoFolderInUseAndNoTwoScansOfOneName) {
   EXPECT_NE(lost.err.find("is read too and would be lost"), std::string::npos) << lost.err;
 }
 
+TEST_F(SplitCommand, TakesNoOutputThatMayReplaceAPiece) {
+  for (const std::string& json : {folder / "out/balls_1.ply", folder / "./out/../out/balls_12.ply"}) {
+    const Finished lost = run({"split", balls, "--out", out, "--json", json});
+    EXPECT_EQ(lost.exit_code, 2) << json;
+    EXPECT_NE(lost.err.find("has a name that a piece may get"), std::string::npos) << lost.err;
+    EXPECT_FALSE(std::filesystem::exists(out));
+  }
+  for (const std::string& json : {folder / "out/balls.json", folder / "balls_1.ply"}) {
+    std::filesystem::remove_all(out);
+    EXPECT_EQ(run({"split", balls, "--out", out, "--json", json}).exit_code, 0) << json;
+  }
+}
+
 TEST_F(SplitCommand, ATableThatIsAskedForAndNotThereFails) {
   const Finished finished = run({"split", balls, "--out", out, "--table", "yes"});
   EXPECT_EQ(finished.exit_code, 1);
