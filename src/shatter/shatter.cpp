@@ -13,6 +13,7 @@
 #include "core/parallel.hpp"
 #include "core/random.hpp"
 #include "mesh/ray_scene.hpp"
+#include "shatter/chip_count.hpp"
 #include "shatter/cracks.hpp"
 #include "shatter/sites.hpp"
 #include "shatter/surface_nets.hpp"
@@ -205,7 +206,7 @@ class Breaker {
     Random random(options_.seed, 12);
     chips_.resize(division_->pieces());
     for (std::size_t k = 0; k < rims.size(); ++k) {
-      const auto count = static_cast<int>(std::floor(random.uniform(0.0, 2.0 * options_.chips) + 0.5));
+      const int count = chip_count(options_.chips, random);
       for (int c = 0; c < count && !rims[k].empty(); ++c) {
         const glm::dvec3 at = rims[k][random.below(static_cast<std::uint32_t>(rims[k].size()))];
         chips_[k].push_back({at, options_.chip_size * diameter_ * random.uniform(0.3, 1.0)});
