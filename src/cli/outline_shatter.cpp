@@ -28,6 +28,7 @@ class OutlineShatterCommand final : public Command {
  public:
   void define(CLI::App& app) override {
     app.add_option("DIR", folder_, "new or empty folder for the pieces and truth.json")
+        ->type_name("DIR")
         ->required()
         ->group("Output");
     add_choice(app, "--format", format_, kFormats, "kind of files; pixels: CSV of edge pixels (csv)")
