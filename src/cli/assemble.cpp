@@ -159,8 +159,9 @@ class AssembleCommand final : public Command {
       require_writable_file(in_run);
       files.push_back(in_run);
     } catch (const IoError& error) {
-      if (!json_) throw;
-      console.warning(fmt::format("{}; rejoin report will not find this assembly", error.what()));
+      if (!json_ && !(out_ && is_run(input_))) throw;
+      console.warning(fmt::format("{}; rejoin report will not find this assembly{}", error.what(),
+                                  json_ ? "" : " (--json FILE keeps its poses)"));
     }
     return files;
   }

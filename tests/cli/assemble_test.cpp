@@ -195,6 +195,19 @@ TEST_F(SecondAssembly, ThatIsInterruptedWhileModelsAreMadeLeavesTheFirstAsItWas)
   EXPECT_TRUE(contents_of(out_) == models);
 }
 
+TEST_F(SecondAssembly, ThatMayNotWriteIntoTheRunGoesIntoItsOwnFolder) {
+  std::filesystem::remove(run_ + "/assembly.json");
+  std::filesystem::create_directory(run_ + "/assembly.json");  // refuses as a disk does that may only be read
+  EXPECT_EQ(run({"assemble", run_}).exit_code, 1) << "nothing would be kept";
+  const std::string other = folder_ / "other";
+  const Finished finished = run({"assemble", run_, "--out", other});
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_NE(finished.err.find("rejoin report will not find this assembly (--json FILE keeps its poses)"),
+            std::string::npos)
+      << finished.err;
+  EXPECT_TRUE(std::filesystem::exists(other + "/assembled.glb"));
+}
+
 TEST_F(SecondAssembly, RemovesTheMatricesOfTheFirstAndNoneOfTheUser) {
   const std::string mine = out_ + "/cloudcompare/from_clicked_points.txt";
   write_file(mine, "1 0 0 5\n0 1 0 6\n0 0 1 7\n0 0 0 1\n");
