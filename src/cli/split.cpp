@@ -64,17 +64,19 @@ std::string bounds_text(const mesh::Mesh& piece) {
 }
 
 /// What was made of a scan, in a line.
-std::string summary(const std::string& path, const mesh::Mesh& scan, const mesh::Split& split) {
+/// \param table_is_asked  whether the scan was looked at for a table
+std::string summary(const std::string& path, const mesh::Mesh& scan, const mesh::Split& split,
+                    bool table_is_asked) {
   const bool cloud = scan.is_cloud();
   const char* of_it = cloud ? "of its points" : "of its area";
   std::string text = fmt::format("{}: {}", path, counted(split.pieces.size(), "piece"));
   if (split.table) {
     text += fmt::format("; cut off the table ({:.0f} % {}) up to {:.3g} above it", 100.0 * split.table_share,
                         of_it, split.cut);
-  } else if (split.pieces.size() == 1) {
-    text += " and no table: nothing to split (if it lies on a table, say --table yes)";
   } else {
-    text += ", no table";
+    const bool one = split.pieces.size() == 1;
+    text += one && split.crumbs.parts == 0 ? " and no table: nothing to split" : ", no table";
+    if (one && table_is_asked) text += " (if it lies on a table, say --table yes)";
   }
   if (split.crumbs.parts > 0) {
     text += fmt::format("; left out {} ({}, {:.2g} % {}; the largest has {:.2g} % of the largest piece)",
@@ -200,7 +202,8 @@ class SplitCommand final : public Command {
     for (const std::string& warning : scan.warnings) console.warning(warning);
     for (std::size_t k = 0; k < split.pieces.size(); ++k)
       mesh::save(output.file(file_name(path, k + 1)), split.pieces[k]);
-    console.result(summary(path, scan.mesh, split) + table_of(path, split.pieces));
+    const bool table_is_asked = options_.table != mesh::SplitOptions::TableUse::No;
+    console.result(summary(path, scan.mesh, split, table_is_asked) + table_of(path, split.pieces));
     result_.push_back(to_json(path, split));
     result_.back()["warnings"] = scan.warnings;
     if (png_) pictures_.push_back(report::split_picture(path, split.pieces));

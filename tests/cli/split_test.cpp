@@ -81,10 +81,18 @@ TEST_F(SplitCommand, OnePieceWithoutATableIsToldAndWritten) {
   const Finished finished = run({"split", folder / "one.ply", "--out", out});
   EXPECT_EQ(finished.exit_code, 0) << finished.err;
   EXPECT_NE(finished.out.find("1 piece and no table: nothing to split"), std::string::npos) << finished.out;
+  EXPECT_NE(finished.out.find("say --table yes"), std::string::npos) << finished.out;
   const mesh::Mesh whole = mesh::load(folder / "one.ply").mesh;
   const mesh::Mesh written = mesh::load(folder / "out/one_1.ply").mesh;
   EXPECT_EQ(written.vertices, whole.vertices);
   EXPECT_EQ(written.faces, whole.faces);
+}
+
+TEST_F(SplitCommand, OnePieceBesideCrumbsIsToldWithoutAdviceThatWasTaken) {
+  const Finished finished = run({"split", balls, "--out", out, "--least", "70", "--table", "no"});
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_NE(finished.out.find("1 piece, no table; left out 2 crumbs ("), std::string::npos) << finished.out;
+  EXPECT_EQ(finished.out.find("--table"), std::string::npos) << finished.out;
 }
 
 TEST_F(SplitCommand, PiecesThatTouchAreToldByName) {
