@@ -109,6 +109,7 @@ class BenchCommand final : public Command {
     if (json_) write_file(*json_, to_json(rows, ratios));
     console.result(machine() + "\n" + table(rows) + table(ratios));
     if (json_) console.wrote(*json_);
+    if (context.cancelled()) console.warning("interrupted; what was not measured has no row");
     return context.cancelled() ? kInterrupted : kDone;
   }
 

@@ -229,6 +229,7 @@ std::vector<BenchmarkRow> benchmark(const BenchmarkOptions& options, const Conte
     try {
       const auto scorer = scorer_of(plan, work);
       const Rates rates = measure(*scorer, work, plan, options.seconds_per_row, context);
+      if (context.cancelled()) break;  // too little was measured
       rows.push_back({plan.backend, way_of(plan), scorer->renderer(), plan.resolution,
                       (work.a.faces.size() + work.b.faces.size()) / 2, plan.threads, plan.batch,
                       rates.a_second, rates.a_cpu_second});

@@ -54,7 +54,7 @@ std::vector<ViewPair> random_poses(std::size_t count, std::uint64_t seed);
 
 /// One row for each backend, number of faces, resolution, number of threads and batch.  GL backends do not use
 /// our threads, but draw in two ways: a row for each.  A backend that fails gets no row.  Ends early, with the
-/// rows so far, when the context is cancelled.
+/// rows measured so far, when the context is cancelled.
 /// \throws InputError  as make_scorer
 std::vector<BenchmarkRow> benchmark(const BenchmarkOptions& options, const Context& context);
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include "core/error.hpp"
@@ -96,6 +97,21 @@ TEST(Benchmark, EndsWhenCancelled) {
   Context context;
   context.cancel();
   EXPECT_TRUE(benchmark({.faces = {12}, .backends = {Backend::Raster}}, context).empty());
+}
+
+TEST(Benchmark, HasNoRowOfWhatWasInterrupted) {
+  Context* own = nullptr;
+  const Context::Progress cancel_at_the_second = [&](std::string_view /*stage*/, double fraction) {
+    if (fraction > 0.0) own->cancel();
+  };
+  Context context(cancel_at_the_second);
+  own = &context;
+  const BenchmarkOptions options{.faces = {12},
+                                 .resolutions = {16, 32, 64},
+                                 .threads = {1},
+                                 .backends = {Backend::Raster},
+                                 .seconds_per_row = 0.001};
+  EXPECT_EQ(benchmark(options, context).size(), 1U);
 }
 
 TEST(Benchmark, MeshWithoutFacesThrows) {
