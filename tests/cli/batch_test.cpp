@@ -361,6 +361,13 @@ TEST_F(Batch, AssemblyOfAnUnfinishedRunSaysHowManyPairsAreMissing) {
   EXPECT_EQ(reason("a7.ply"), "none of its 2 pairs is compared yet") << reason("a7.ply");
   EXPECT_NE(reason("b7.ply").find("1 of its 2 pairs is not compared yet"), std::string::npos)
       << reason("b7.ply");
+  const std::string advice = "see what counts as their breaks";
+  EXPECT_NE(assembled.out.find(advice), std::string::npos) << assembled.out;
+  SQLite::Database(run_ + "/run.sqlite", SQLite::OPEN_READWRITE)
+      .exec("DELETE FROM candidate; DELETE FROM pair");
+  const Finished nothing_compared = run({"assemble", run_});
+  ASSERT_EQ(nothing_compared.exit_code, 0) << nothing_compared.err;
+  EXPECT_EQ(nothing_compared.out.find(advice), std::string::npos) << nothing_compared.out;
 }
 
 TEST_F(Batch, PairThatMustJoinButHasNoPoseIsToldWithTheReason) {
