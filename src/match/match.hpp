@@ -140,7 +140,8 @@ struct Stability {
   double next_share = 0;    ///< strength of that one, share of the best one's
   double repeat_deg = 0;    ///< turn between the poses that either half of the samples gives, degrees
   double repeat_shift = 0;  ///< distance of the joint's middle between them, mesh units
-  /// Of a push where the joint holds least, the share that is left after aligning again: 0 held, 1 free (or driven on).
+  /// Of the distance between poses pushed to either side where the joint holds least, the share that is left after aligning them
+  /// again: 0 held, 1 free.
   double slide = 0;
 };
 

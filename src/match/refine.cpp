@@ -16,6 +16,7 @@ constexpr std::array kTighter{0.7, 0.5, 0.35};  // reaches, tolerances
 constexpr double kUnbacked = 0.9;               // share of the contact
 constexpr double kSkin = 4.0;                   // patches: less goes on at wrong poses, too
 constexpr double kLeastTouching = 0.82;         // of what lies over the other surface, what touches
+constexpr double kLeastAgreement = 0.18;        // nats a patch: gaps vary by 0.84 of what the surfaces do
 constexpr double kNoLimit = -std::numeric_limits<double>::infinity();
 
 void sort_by_rank(std::vector<Hypothesis>& list) {
@@ -45,14 +46,21 @@ Evidence told(const Evidence& evidence, const Joint& joint, const Rigid& pose) {
   return strength(evidence) > 0.0 ? told_by_scale(evidence, joint.share_by_scale(pose)) : evidence;
 }
 
-/// With at most as much information as leaves a joint as likely as not, where what touches may be walls, or solid pieces lie loosely on each other.
-Evidence held_back(Evidence evidence, const Joint& joint) {
+/// With at most as much information as leaves a joint as likely as not, where what touches may be walls, solid pieces lie loosely on each
+/// other, or hardly any shape agrees.
+Evidence held_back(const Evidence& evidence, const Joint& joint) {
   const bool solid = joint.thickness() <= 0.0;
-  if (!may_be_walls(evidence) && !(solid && lies_loosely(evidence))) return evidence;
-  const double part = kEven / std::max(kEven, strength(evidence));
-  evidence.information *= part;
-  evidence.near_information *= part;
-  return evidence;
+  if (!may_be_walls(evidence) && !(solid && lies_loosely(evidence)) && !hardly_agrees(evidence))
+    return evidence;
+  const double whole = strength(evidence);
+  if (whole <= kEven) return evidence;
+  Evidence held = evidence;
+  held.information = held.near_information = 0.0;
+  const double skin = strength(held);
+  const double part = std::max(0.0, kEven - skin) / (whole - skin);
+  held.information = part * evidence.information;
+  held.near_information = part * evidence.near_information;
+  return held;
 }
 
 }  // namespace
@@ -138,6 +146,11 @@ bool may_be_walls(const Evidence& evidence) {
 
 bool lies_loosely(const Evidence& evidence) {
   return touching_share(evidence) < kLeastTouching && evidence.continuation < kSkin;
+}
+
+bool hardly_agrees(const Evidence& evidence) {
+  const double patches = evidence.shared_area / std::max(evidence.patch_area, 1e-300);
+  return std::max(evidence.information, evidence.near_information) < kLeastAgreement * patches;
 }
 
 Evidence weigh(const Evidence& evidence, const Joint& joint, const Rigid& pose) {

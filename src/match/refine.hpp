@@ -13,7 +13,7 @@ struct Hypothesis {
   Rigid pose;
   Evidence evidence;
   double strength = 0;  ///< of the joint where it was aligned
-  int facet_a = -1;  ///< match/cuts.hpp; -1: not from a facet
+  int facet_a = -1;     ///< match/cuts.hpp; -1: not from a facet
   int facet_b = -1;
   double as_rival =
       0;  ///< the same without what weigh() holds back: of ridges in grooves, equal poses may lie on both sides of a limit
@@ -56,8 +56,13 @@ bool may_be_walls(const Evidence& evidence);
 /// with rounded outsides lie in each other's hollows like that.
 bool lies_loosely(const Evidence& evidence);
 
+/// Whether a large contact tells by its size alone: of the shape of each patch hardly any agrees, as where sawn or tooled faces lie on each
+/// other and the best of many poses fits their marks a little.
+bool hardly_agrees(const Evidence& evidence);
+
 /// The evidence of a pose with less information where it would say too much: where only large, smooth shape agrees, loosely
-/// (told_by_scale()), and where what touches may be walls, or solid pieces lie loosely on each other: such a joint is at most as likely as not.
+/// (told_by_scale()), and where what touches may be walls, solid pieces lie loosely on each other, or hardly any shape agrees: such a joint is
+/// at most as likely as not.
 /// \param evidence  joint.agreed_evidence(pose)
 /// \source docs/scoring.md
 Evidence weigh(const Evidence& evidence, const Joint& joint, const Rigid& pose);

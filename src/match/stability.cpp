@@ -28,13 +28,13 @@ std::optional<Stability> probe(const Joint& joint, const Rigid& pose, const Evid
   stability.repeat_shift = glm::distance(halves[0](on_b), halves[1](on_b));
   const glm::dvec3 along = joint.least_held(pose, t);
   options = {2.0 * kPush * t, 1.0 * t, 15, 0};
-  for (const double push : {-kPush * t, kPush * t}) {
+  std::array<double, 2> ends{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double push = (k == 0 ? -kPush : kPush) * t;
     const Rigid moved = Rigid{glm::dmat3(1.0), push * along} * pose;
-    const glm::dvec3 left = joint.align(moved, options)(on_b) - evidence.centre;
-    // Where the alignment carries the pose on, or back beyond its place, nothing holds it: that is no more than free.
-    const double share = std::abs(glm::dot(left, along) / push);
-    stability.slide = std::max(stability.slide, std::min(1.0, share));
+    ends[k] = glm::dot(joint.align(moved, options)(on_b) - evidence.centre, along);
   }
+  stability.slide = std::min(1.0, std::abs(ends[1] - ends[0]) / (2.0 * kPush * t));
   return stability;
 }
 

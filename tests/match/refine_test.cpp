@@ -220,5 +220,19 @@ TEST(Refine, WhatIsHeldBackStaysARival) {
   EXPECT_GT(list[0].as_rival, 2.0 * kEven);
 }
 
+// A large contact of which each patch agrees hardly, as of sawn faces whose marks fit a little somewhere.
+TEST(Refine, ManyPatchesThatHardlyAgreeMakeNoSureJoin) {
+  const Pair pair = make_pair(6);
+  const Joint joint(pair.a, pair.b);
+  Evidence evidence = joint.agreed_evidence(pair.truth);
+  evidence.patch_area = evidence.shared_area / 400.0;
+  const auto weighed = [&](double nats_a_patch) {
+    evidence.information = evidence.near_information = 400.0 * nats_a_patch;
+    return strength(weigh(evidence, joint, pair.truth));
+  };
+  EXPECT_GT(weighed(0.3), 2.0 * kEven);
+  EXPECT_LE(weighed(0.1), kEven + 1e-9);
+}
+
 }  // namespace
 }  // namespace rejoin::match
