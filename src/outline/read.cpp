@@ -24,6 +24,9 @@ namespace rejoin::outline {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr const char* kOtherKind = "is a picture of a kind that is not read";
+constexpr const char* kSaveSuch = "save it as png, jpg or tif";
+
 enum class Kind { Picture, Csv, Svg, GeoJson, Unknown };
 
 Kind kind_of(const fs::path& path) {
@@ -33,6 +36,14 @@ Kind kind_of(const fs::path& path) {
   if (ending == ".svg") return Kind::Svg;
   if (ending == ".geojson" || ending == ".json") return Kind::GeoJson;
   return Kind::Unknown;
+}
+
+/// Whether a file is a picture of a kind that is not read.
+bool is_other_picture(const fs::path& path) {
+  constexpr std::array<const char*, 18> kKinds = {".webp", ".gif", ".bmp", ".heic", ".jp2", ".avif",
+                                                  ".pdf",  ".psd", ".cr2", ".cr3",  ".nef", ".arw",
+                                                  ".dng",  ".raf", ".orf", ".rw2",  ".pef", ".xcf"};
+  return std::find(kKinds.begin(), kKinds.end(), extension_of(path)) != kKinds.end();
 }
 
 std::string read_text(const std::string& path) {
@@ -120,6 +131,7 @@ PieceSet read_pieces(const std::string& path, const ExtractOptions& options) {
   PieceSet set;
   Outlines outlines;
   if (kind == Kind::Unknown) {
+    if (is_other_picture(path)) throw InputError(path, kOtherKind, kSaveSuch);
     throw InputError(path, "is neither a picture nor an outline",
                      "give a png, jpg, tif, csv, svg or geojson file");
   }
@@ -146,14 +158,6 @@ bool is_beside_the_pieces(const std::string& name, std::vector<std::string>& res
   if (!std::regex_match(name, kResult)) return false;
   results.push_back(name);
   return true;
-}
-
-/// Whether a file is a picture of a kind that is not read.
-bool is_other_picture(const fs::path& path) {
-  constexpr std::array<const char*, 18> kKinds = {".webp", ".gif", ".bmp", ".heic", ".jp2", ".avif",
-                                                  ".pdf",  ".psd", ".cr2", ".cr3",  ".nef", ".arw",
-                                                  ".dng",  ".raf", ".orf", ".rw2",  ".pef", ".xcf"};
-  return std::find(kKinds.begin(), kKinds.end(), extension_of(path)) != kKinds.end();
 }
 
 /// How many files that may be pieces lie in a folder inside the user's, which is not looked into.
@@ -326,9 +330,7 @@ PieceSet read_folder(const std::string& folder, const ExtractOptions& options, c
   }
   for (const fs::path& file : others) {
     all.unusable.push_back(
-        {file.filename().string(),
-         fmt::format("{}: is a picture of a kind that is not read; save it as png, jpg or tif",
-                     file.string())});
+        {file.filename().string(), fmt::format("{}: {}; {}", file.string(), kOtherKind, kSaveSuch)});
   }
   std::vector<std::string> usable;
   for (std::size_t k = 0; k < files.size(); ++k) {

@@ -90,6 +90,12 @@ TEST_F(Read, FeaturesOfGeoJsonKeepTheirNames) {
   EXPECT_EQ(set.pieces[2].outline.label, "Small");
 }
 
+TEST_F(Read, PicturesOfOtherKindsAreToldAsSuch) {
+  expect_refusal("a.webp", "RIFF", "kind that is not read");
+  expect_refusal("a.bmp", "BM", "save it as png");
+  expect_refusal("a.xyz", "1 2 3", "neither a picture");
+}
+
 TEST_F(Read, BrokenGeoJsonIsRefused) {
   expect_refusal("a.geojson", "{\"type\":", "no JSON");
   expect_refusal("b.geojson", R"({"type":"Point","coordinates":[1,2]})", "no polygon");
