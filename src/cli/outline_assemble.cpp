@@ -102,6 +102,8 @@ std::string summary(const std::vector<outline::Piece>& pieces, const outline::As
     text += fmt::format("  object {}: {} pieces", group + 1, sizes[group]);
     if (sizes[group] == 2 && parts == 2)
       text += fmt::format(", by a join that is not sure (its score is below {})", outline::kSureScore);
+    else if (parts == sizes[group])
+      text += fmt::format(", none of whose joins is sure (their scores are below {})", outline::kSureScore);
     else if (parts > 1)
       text +=
           fmt::format(", of which {} parts hold together only by joins that are not sure (scores below {})",
