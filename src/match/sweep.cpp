@@ -174,8 +174,9 @@ std::vector<double> best_turns(const Task& task, double pitch, const std::vector
 }
 
 /// All shifts of b's patch on a's at all turns; of plates with pixels to spare, at the turns that a first look finds best.
+/// \param most  peaks that are kept
 SweepResult correlate_patches(const Task& task, double resolution, const SweepOptions& options,
-                              const Context& context) {
+                              std::size_t most, const Context& context) {
   const FacetPatch& a = task.a->patch;
   const FacetPatch& b = task.b->patch;
   const double wanted = pitch_for(a, b, resolution);
@@ -208,8 +209,8 @@ SweepResult correlate_patches(const Task& task, double resolution, const SweepOp
     }
     result.evaluations += correlator.shifts();
   }
-  result.hits = distinct(std::move(result.hits), 3.0 * pitch, b.centre, 0.5 * std::min(a.length, b.length),
-                         static_cast<std::size_t>(options.per_pair_of_facets));
+  result.hits =
+      distinct(std::move(result.hits), 3.0 * pitch, b.centre, 0.5 * std::min(a.length, b.length), most);
   return result;
 }
 
@@ -330,13 +331,15 @@ SweepResult sweep(const Fragment& a, const Fragment& b, const SweepOptions& opti
   add_tasks(creased_a, creased_b, outlines, tasks);
   add_tasks(parts_a, parts_b, 0.0F, tasks);
   const double resolution = std::max(a.resolution, b.resolution);
+  const SweepOptions::Kept& kept = both_thin(a, b) ? options.kept_thin : options.kept;
   std::vector<SweepResult> parts(tasks.size());
   std::mutex reporting;
   std::size_t done = 0;
   parallel_for(tasks.size(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
       if (context.cancelled()) return;
-      parts[k] = correlate_patches(tasks[k], resolution, options, context);
+      parts[k] = correlate_patches(tasks[k], resolution, options,
+                                   static_cast<std::size_t>(kept.a_pair_of_facets), context);
       const std::lock_guard lock(reporting);
       context.report("search", static_cast<double>(++done) / static_cast<double>(tasks.size()));
     }
@@ -347,8 +350,7 @@ SweepResult sweep(const Fragment& a, const Fragment& b, const SweepOptions& opti
     result.evaluations += part.evaluations;
   }
   result.hits = distinct(std::move(result.hits), 3.0 * resolution, mesh::centroid(b.surface),
-                         0.25 * std::min(a.diameter, b.diameter),
-                         static_cast<std::size_t>(both_thin(a, b) ? options.most_thin : options.most));
+                         0.25 * std::min(a.diameter, b.diameter), static_cast<std::size_t>(kept.in_all));
   return result;
 }
 

@@ -25,11 +25,15 @@ struct SweepHit {
 struct SweepOptions {
   std::vector<int> facets_a;  ///< facets that may join (match/cuts.hpp); empty: all fracture facets
   std::vector<int> facets_b;
-  std::optional<Near> near;     ///< only hits that hold near a rough pose
-  double turn_step_px = 2.0;    ///< how far the end of the shorter facet moves between turns, pixels
-  int per_pair_of_facets = 24;  ///< peaks kept a pair of facets
-  int most = 600;               ///< peaks kept in all
-  int most_thin = 400;          ///< the same where both pieces are thin: their strips tell more
+  std::optional<Near> near;   ///< only hits that hold near a rough pose
+  double turn_step_px = 2.0;  ///< how far the end of the shorter facet moves between turns, pixels
+  /// Peaks that are kept.
+  struct Kept {
+    int a_pair_of_facets = 0;
+    int in_all = 0;
+  };
+  Kept kept{96, 1600};
+  Kept kept_thin{24, 400};  ///< where both pieces are thin: their strips tell more
 };
 
 struct SweepResult {

@@ -169,7 +169,7 @@ TEST(Sweep, ItsCostHasALimitHoweverUnlikeTheSizesAre) {
 TEST(Sweep, NoMorePosesThanAskedForBestFirst) {
   const auto pair = make_pair(5);
   SweepOptions options;
-  options.most = 7;
+  options.kept.in_all = 7;
   const SweepResult swept = sweep(pair.a, pair.b, options, Context{});
   ASSERT_EQ(swept.hits.size(), 7U);
   for (std::size_t k = 1; k < swept.hits.size(); ++k)
@@ -181,8 +181,8 @@ TEST(Sweep, SherdsHaveALimitOfTheirOwn) {
   const Fragment b = thin_half(false);
   ASSERT_TRUE(both_thin(a, b));
   SweepOptions options;
-  options.most = 3;
-  options.most_thin = 7;
+  options.kept.in_all = 3;
+  options.kept_thin.in_all = 7;
   EXPECT_EQ(sweep(a, b, options, Context{}).hits.size(), 7U);
 }
 
