@@ -177,12 +177,19 @@ std::string told_of_models(const fs::path& folder) {
 
 std::string told_of_painted(const fs::path& folder) {
   std::error_code ignored;
-  const std::set<std::string> painted = painted_of(files_in(folder, ignored));
+  std::set<std::string> painted = painted_of(files_in(folder, ignored));
+  if (scans_in(folder, ignored).empty()) {
+    for_each_below(folder, [&](const fs::directory_entry& entry) {
+      if (!entry.is_directory(ignored)) return;
+      for (const std::string& name : painted_of(files_in(entry.path(), ignored)))
+        painted.insert((entry.path().lexically_relative(folder) / name).string());
+    });
+  }
   if (painted.empty()) return "";
   return fmt::format(
       "{} in {} ({}{}) taken for no scan: rejoin facets writes painted breaks under such names, which "
-      "--facets "
-      "DIR uses (a scan needs another)",
+      "--facets DIR "
+      "uses (a scan needs another)",
       counted(painted.size(), "file"), folder.string(), *painted.begin(), painted.size() == 1 ? "" : ", ...");
 }
 

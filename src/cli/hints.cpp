@@ -26,11 +26,6 @@ void Hints::read_into(batch::Options& options, const std::string& scans) const {
     options.warnings = std::move(laid.warnings);
   }
   if (!painted_) return;
-  std::error_code absent;
-  if (std::filesystem::equivalent(*painted_, scans, absent)) {
-    throw UsageError("--facets", "names the folder of the scans, where painted surfaces are taken for scans",
-                     "move them to a folder of their own");
-  }
   options.painted = batch::find_painted(*painted_, batch::names_of(batch::find_scans(scans)));
 }
 

@@ -78,7 +78,8 @@ std::string without_place(const std::vector<outline::Piece>& pieces, const outli
   const auto refused = std::ranges::find(assembly.refused, piece, &outline::AssemblyRival::piece);
   if (refused != assembly.refused.end())
     return fmt::format(
-        "  has no place: {} (fits {}, {:.2f}, but would overlap other pieces there, or only touch them)\n",
+        "  has no place: {} (fits {}, {:.2f}, but others are in its way there, or nothing else bears it "
+        "out)\n",
         name, pieces[refused->at].name, refused->score);
   return fmt::format("  fits nowhere: {}\n", name);
 }

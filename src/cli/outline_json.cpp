@@ -13,7 +13,9 @@ using nlohmann::ordered_json;
 
 /// Where a piece is found in its file.
 void add_origin(const outline::Piece& piece, ordered_json& json) {
-  const glm::dvec2 inside = outline::inner_point(piece.outline.points);
+  std::vector<std::vector<glm::dvec2>> rings{piece.outline.points};
+  rings.insert(rings.end(), piece.outline.holes.begin(), piece.outline.holes.end());
+  const glm::dvec2 inside = outline::inner_point(rings);
   json["inside"] = {inside.x, inside.y};
   if (!piece.outline.label.empty()) json["label"] = piece.outline.label;
 }

@@ -128,6 +128,11 @@ fs::path OutputFolder::file(const std::string& name) {
   return files_.back();
 }
 
+void OutputFolder::add(const fs::path& file) {
+  std::error_code ignored;
+  if (fs::equivalent(fs::absolute(file).parent_path(), path_, ignored)) files_.push_back(file);
+}
+
 void require_apart_from_run(const std::string& option, const fs::path& output, const fs::path& run,
                             const std::string& replaceable) {
   std::error_code ignored;

@@ -31,6 +31,9 @@ class OutputFolder {
   /// \return its path
   std::filesystem::path file(const std::string& name);
 
+  /// The same for the output of another option, which may lie in the folder.
+  void add(const std::filesystem::path& file);
+
  private:
   std::filesystem::path path_;
   std::vector<std::filesystem::path> files_;  ///< that are outputs

@@ -48,7 +48,8 @@ void require_no_piece(const std::string& option, const std::string& file, const 
                       const std::vector<std::string>& scans) {
   std::error_code ignored;  // of a folder that is not there yet
   const fs::path path = fs::weakly_canonical(fs::absolute(file), ignored);
-  if (path.parent_path() != fs::weakly_canonical(fs::absolute(folder) / "", ignored).parent_path()) return;
+  if (path.parent_path() != fs::weakly_canonical(fs::absolute(folder) / "piece", ignored).parent_path())
+    return;
   const bool may_be_piece = std::ranges::any_of(scans, [&](const std::string& scan) {
     const std::string begin = fs::path(scan).stem().string() + "_";
     return path.extension() == ".ply" && path.filename().string().starts_with(begin);
@@ -168,6 +169,9 @@ class SplitCommand final : public Command {
       if (!context.cancelled()) continue;
       console.warning("interrupted; the pieces of further scans are not written");
       return kInterrupted;
+    }
+    for (const auto& file : {json_, png_}) {
+      if (file) output.add(*file);
     }
     if (json_) write_file(*json_, text_of({{"schema", "rejoin.split/1"}, {"scans", result_}}));
     if (png_ && !pictures_.empty()) report::write_png(*png_, report::stacked(pictures_));

@@ -283,8 +283,7 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
   if (!hypotheses.empty() && !context.cancelled()) {
     const Hypothesis& best = hypotheses.front();
     result.stability = probe(joint, best.pose, best.evidence);
-    double next = 0.0;
-    for (const Hypothesis& rival : std::span(hypotheses).subspan(1)) next = std::max(next, rival.as_rival);
+    const double next = strongest_rival(hypotheses);
     if (result.stability) {
       result.stability->margin = log_odds(best.strength) - log_odds(next);
       if (best.strength > 0.0) result.stability->next_share = next / best.strength;

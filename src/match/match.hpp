@@ -136,12 +136,13 @@ struct Candidate {
 
 /// What keeps a pose where it is.
 struct Stability {
-  double margin = 0;        ///< log-odds by which the best pose is ahead of the best different one
-  double next_share = 0;    ///< strength of that one, share of the best one's
+  double margin =
+      0;  ///< log-odds by which the best pose is ahead of the best different one, before that was held back
+  double next_share = 0;    ///< strength of that one then, share of the best one's
   double repeat_deg = 0;    ///< turn between the poses that either half of the samples gives, degrees
   double repeat_shift = 0;  ///< distance of the joint's middle between them, mesh units
   /// Of the distance between poses pushed to either side where the joint holds least, the share that is left after aligning them
-  /// again: 0 held, 1 free.
+  /// again: 0 both end at one place, 1 free.
   double slide = 0;
 };
 

@@ -170,6 +170,12 @@ void weigh(std::vector<Hypothesis>& list, const Joint& joint) {
   sort_by_rank(list);
 }
 
+double strongest_rival(const std::vector<Hypothesis>& list) {
+  double most = 0.0;
+  for (std::size_t k = 1; k < list.size(); ++k) most = std::max(most, list[k].as_rival);
+  return most;
+}
+
 void settle(std::vector<Hypothesis>& list, const Joint& joint, const Fragment& b, double diameter) {
   const double t = joint.tolerance();
   parallel_for(list.size(), 1, [&](std::size_t first, std::size_t last) {

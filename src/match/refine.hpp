@@ -71,6 +71,10 @@ Evidence weigh(const Evidence& evidence, const Joint& joint, const Rigid& pose);
 /// \pre tightened
 void weigh(std::vector<Hypothesis>& list, const Joint& joint);
 
+/// The largest strength as a rival of all but the first; 0 if there are none.
+/// \pre weighed
+double strongest_rival(const std::vector<Hypothesis>& list);
+
 /// Aligns what may be a join by both pieces' samples at once, and shifts it along its normal until the median of its gaps, signed
 /// and away from edges, is nought; the strength stays: false poses gain as much, and where a joint is strongest it is not nearest to the
 /// truth, as more of worn edges touches if they are pressed into each other.  Keeps one of poses that came together.

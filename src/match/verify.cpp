@@ -16,8 +16,7 @@ constexpr double kSteady = 2.0;  // degrees between the poses of either half of 
 constexpr double kSlope = 0.75;  // strength that multiplies the odds by e
 constexpr double kAhead = 11.0;  // log-odds of a sure join over those of the pair's next pose, at least
 constexpr double kNext = 0.8;    // of the strength of a sure join, that of the pair's next pose, at most
-
-constexpr double kHeld = 0.6;  // of a push to either side that a sure join leaves, at most
+constexpr double kHeld = 0.6;    // of the distance between two pushed poses, what a sure join leaves at most
 
 /// Whether the pair's next pose comes near: of large joints equal poses differ by more than kAhead by chance.
 bool has_rival(const Stability& stability) {

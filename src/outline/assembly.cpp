@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <set>
@@ -26,6 +27,8 @@ using detail::LinkedPieces;
 
 // What holds a part of a group to the rest, nats.
 constexpr double kLeastJoin = 2.0;
+// Share of the tolerance below which borders' reach is not shortened further.
+constexpr double kLeastReach = 0.2;
 // Score of a join that is not given up for a better fit of the whole.
 constexpr double kLikelyJoin = 0.3;
 // Of the contacts' information, beside the candidates' evidence, which knows most of it.
@@ -181,8 +184,16 @@ class Assembler {
     return true;
   }
 
-  /// Spreads a group's error, unless that carries likely joins away: borders that part at the ends of a short contact draw at each other, too.
+  /// Spreads a group's error, over shorter reaches where that would carry likely joins away, and not at all if it still does, or of two pieces: borders
+  /// that part at the ends of a short contact draw at each other, too.
   void spread(Layout& layout, std::size_t group, double tolerance, int iterations) const {
+    const bool has_loops = layout.members(group).size() > 2;
+    for (double reach = tolerance; reach > kLeastReach * tolerance; reach *= 0.5)
+      if (try_spread(layout, group, reach, iterations) || !has_loops) return;
+  }
+
+  /// \return false, and nothing has moved: it would carry a likely join away
+  bool try_spread(Layout& layout, std::size_t group, double tolerance, int iterations) const {
     Layout moved = layout;
     moved.spread_error(group, tolerance, iterations);
     const bool carries_away = std::ranges::any_of(links_, [&](const Link& link) {
@@ -190,6 +201,7 @@ class Assembler {
              detail::lies_so(link, pieces_, layout) && !detail::lies_so(link, pieces_, moved);
     });
     if (!carries_away) layout = std::move(moved);
+    return !carries_away;
   }
 
   bool intrudes(const Contact& contact, double leniency) const {
@@ -347,14 +359,14 @@ class Description {
   double length_ = 0.0;
 };
 
-/// \param unplaced  ascending
-std::vector<AssemblyRepeat> repeats_of(const std::vector<Piece>& pieces,
-                                       const std::vector<std::size_t>& unplaced) {
+/// \param unplaced  ascending   \param are_congruent  (a, b), a < b
+std::vector<AssemblyRepeat> repeats_of(std::size_t pieces, const std::vector<std::size_t>& unplaced,
+                                       const std::function<bool(std::size_t, std::size_t)>& are_congruent) {
   std::vector<AssemblyRepeat> repeats;
   for (const std::size_t piece : unplaced) {
-    for (std::size_t other = 0; other < pieces.size(); ++other) {
+    for (std::size_t other = 0; other < pieces; ++other) {
       if (other >= piece && std::ranges::binary_search(unplaced, other)) continue;
-      if (!congruent(pieces[piece].outline, pieces[other].outline)) continue;
+      if (!are_congruent(std::min(piece, other), std::max(piece, other))) continue;
       repeats.push_back({piece, other});
       break;
     }
@@ -379,8 +391,7 @@ Assembly assemble_linked(const std::vector<Piece>& pieces, const LinkedPieces& l
                          const AssemblyOptions& options, const Context& context) {
   const Layout layout = Assembler(linked, options).run(context);
   Assembly assembly = Description(pieces, linked, layout).assembly();
-  assembly.repeats = repeats_of(pieces, assembly.unplaced);
-  assembly.refused = refused_of(linked, assembly.unplaced);
+  if (!context.cancelled()) assembly.refused = refused_of(linked, assembly.unplaced);
   assembly.similarity = detail::similarity(linked);
   assembly.cancelled = context.cancelled();
   return assembly;
@@ -391,7 +402,11 @@ Assembly assemble_linked(const std::vector<Piece>& pieces, const LinkedPieces& l
 Assembly assemble(const std::vector<Piece>& pieces, const std::vector<PairResult>& pairs,
                   const AssemblyOptions& options, const Context& context) {
   if (pieces.empty()) return {};
-  return assemble_linked(pieces, detail::link_pieces(pieces, pairs, options), options, context);
+  Assembly assembly = assemble_linked(pieces, detail::link_pieces(pieces, pairs, options), options, context);
+  assembly.repeats = repeats_of(pieces.size(), assembly.unplaced, [&](std::size_t a, std::size_t b) {
+    return congruent(pieces[a].outline, pieces[b].outline);
+  });
+  return assembly;
 }
 
 namespace {
@@ -403,12 +418,13 @@ double joined_length(const Assembly& assembly) {
   return length;
 }
 
-/// Two pieces, and whether their pair was looked at to the end.
+/// Two pieces, and what is known of them.
 struct PairOfPieces {
   std::size_t a = 0;
   std::size_t b = 0;
-  std::size_t place = 0;  // among the results
-  bool matched = false;
+  std::size_t place = 0;   // among the results
+  bool matched = false;    // to the end
+  bool congruent = false;  // never matched
 };
 
 /// \param stage  what progress is told of
@@ -422,9 +438,8 @@ void match_all(const std::vector<Piece>& pieces, const Matcher& matcher, std::st
     parallel_for(count, 1, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = begin + first; i < begin + last; ++i) {
         PairOfPieces& pair = names[i];
-        if (!congruent(pieces[pair.a].outline, pieces[pair.b].outline)) {
-          results[pair.place] = matcher.match(pair.a, pair.b, context);
-        }
+        if (!pair.congruent) pair.congruent = congruent(pieces[pair.a].outline, pieces[pair.b].outline);
+        if (!pair.congruent) results[pair.place] = matcher.match(pair.a, pair.b, context);
         pair.matched = !context.cancelled();
       }
     });
@@ -439,7 +454,7 @@ Assembly assemble(const std::vector<Piece>& pieces, const Matcher& matcher, cons
   if (pieces.empty()) return {};
   std::vector<PairOfPieces> names;
   for (std::size_t a = 0; a < pieces.size(); ++a)
-    for (std::size_t b = a + 1; b < pieces.size(); ++b) names.push_back({a, b, names.size(), false});
+    for (std::size_t b = a + 1; b < pieces.size(); ++b) names.push_back({a, b, names.size()});
   std::vector<PairResult> pairs(names.size());
   match_all(pieces, matcher, "matching pairs", names, pairs, context);
   // A wish to stop that ended the search must not throw away what it found; to join that takes moments.
@@ -455,11 +470,17 @@ Assembly assemble(const std::vector<Piece>& pieces, const Matcher& matcher, cons
     options.second->prepare(pieces);
     std::vector<PairResult> more(names.size());
     match_all(pieces, *options.second, "matching what is left", left, more, context);
-    detail::add_links(linked, more, options);
-    Assembly other = assemble_linked(pieces, linked, options, context.cancelled() ? joining : context);
-    if (joined_length(other) > joined_length(assembly)) assembly = std::move(other);
+    for (const PairOfPieces& pair : left) names[pair.place].matched = pair.matched;
+    if (detail::add_links(linked, more, options)) {
+      Assembly other = assemble_linked(pieces, linked, options, context.cancelled() ? joining : context);
+      const double gain = joined_length(other) - joined_length(assembly);
+      if (gain > kShortestJoin * linked.step) assembly = std::move(other);
+    }
   }
   assembly.cancelled = context.cancelled();
+  assembly.repeats = repeats_of(pieces.size(), assembly.unplaced, [&](std::size_t a, std::size_t b) {
+    return names[a * (2 * pieces.size() - a - 1) / 2 + b - a - 1].congruent;
+  });
   std::set<std::size_t> open;
   for (const PairOfPieces& pair : names)
     if (!pair.matched) open.insert({pair.a, pair.b});

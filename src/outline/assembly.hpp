@@ -18,7 +18,7 @@ struct AssemblyOptions {
       8.0;  ///< that joins a group to another, nats: evidence of the candidates that agree, as odds
             ///< by their scores, and 0.3 of the contacts' information
   Matcher* second =
-      nullptr;  ///< looks at all pairs of pieces that have no place by the first; need not be prepared.
+      nullptr;  ///< looks at each piece without a place by the first with all others; need not be prepared.
                 ///< What it finds is used if the joins become longer together
   double most_intrusion = 0.3;  ///< border deep inside another piece, share of the contact's length
 };
@@ -66,7 +66,7 @@ struct Assembly {
   std::vector<AssemblyRepeat> repeats;  ///< ascending by piece
   std::vector<AssemblyRival>
       refused;  ///< of unplaced pieces that have a sure candidate, the best: laid there they would overlap
-                ///< others, or share no border with them
+                ///< others or only touch them, or it is not sure enough alone; none if joining was cancelled
   std::vector<std::vector<double>>
       similarity;    ///< length of the common border of each pair's best candidate, used or not; 0 if none
   double rms = 0.0;  ///< distance of the borders along all joins, file units

@@ -79,7 +79,7 @@ struct Outline {
   std::vector<std::vector<glm::dvec2>> holes;  ///< closed in the same way; may be empty
   std::vector<glm::dvec3> colour;  ///< of each point, sRGB 0..1, from just inside the border; empty: unknown
   bool of_pixels = false;          ///< taken from a picture
-  std::string label = {};               ///< what its file calls it, as a feature's name; empty: nothing
+  std::string label = {};          ///< what its file calls it, as a feature's name; empty: nothing
   double raster =
       0.0;  ///< rms distance of the points from the true border where they follow the pixels' steps, file units
 };

@@ -144,13 +144,20 @@ bool contains(const Polygon& polygon, const glm::dvec2& point) {
 }
 
 glm::dvec2 inner_point(const Polygon& polygon) {
+  return inner_point(std::vector<Polygon>{polygon});
+}
+
+glm::dvec2 inner_point(const std::vector<Polygon>& rings) {
+  const Polygon& polygon = rings[0];
   const auto [lowest, highest] = std::ranges::minmax(polygon, {}, [](const glm::dvec2& p) { return p.y; });
   const double y = 0.5 * (lowest.y + highest.y);
   std::vector<double> crossings;
-  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    const glm::dvec2& a = polygon[i];
-    const glm::dvec2& b = polygon[j];
-    if ((a.y > y) != (b.y > y)) crossings.push_back((b.x - a.x) * (y - a.y) / (b.y - a.y) + a.x);
+  for (const Polygon& ring : rings) {
+    for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+      const glm::dvec2& a = ring[i];
+      const glm::dvec2& b = ring[j];
+      if ((a.y > y) != (b.y > y)) crossings.push_back((b.x - a.x) * (y - a.y) / (b.y - a.y) + a.x);
+    }
   }
   std::ranges::sort(crossings);
   glm::dvec2 widest = polygon[0];

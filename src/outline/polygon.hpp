@@ -20,6 +20,10 @@ bool contains(const std::vector<glm::dvec2>& polygon, const glm::dvec2& point);
 /// there is none.
 glm::dvec2 inner_point(const std::vector<glm::dvec2>& polygon);
 
+/// The same of a piece with holes.
+/// \param rings  its border, then the holes; at least one
+glm::dvec2 inner_point(const std::vector<std::vector<glm::dvec2>>& rings);
+
 /// Shares (0..1) of the way from a to b and from c to d at which the two segments meet; nullopt: nowhere, or they are
 /// parallel.
 std::optional<glm::dvec2> meeting(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c,

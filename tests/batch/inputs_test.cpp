@@ -61,6 +61,15 @@ TEST_F(Inputs, PaintedSurfacesBesideTheirScansAreNoScans) {
   EXPECT_EQ(told_of_painted(folder_), "");
 }
 
+TEST_F(Inputs, PaintedSurfacesInFoldersOfOneScanEachAreTold) {
+  for (const char* name : {"1/a.ply", "1/a-facets.ply", "2/b.ply"}) {
+    fs::create_directories((folder_ / name).parent_path());
+    put(name, "x");
+  }
+  EXPECT_EQ(names_of(find_scans(folder_)).size(), 2U);
+  EXPECT_NE(told_of_painted(folder_).find("(1/a-facets.ply)"), std::string::npos) << told_of_painted(folder_);
+}
+
 TEST_F(Inputs, FoldersBelowWithScansAreTold) {
   put("a.ply", "x");
   for (const char* name : {"notes", "result", "fragments", ".Trash", "old", "old/run", "old/run/fragments"})

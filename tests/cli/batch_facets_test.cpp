@@ -135,15 +135,23 @@ TEST_F(BatchFacets, PaintThatLiesElsewhereIsTold) {
   EXPECT_NE(batch().err.find("a8-facets.ply: does not lie on a8.ply"), std::string::npos);
 }
 
-TEST_F(BatchFacets, AFolderIsAssembledByThemAndARunOrTheFolderOfTheScansIsRefused) {
+TEST_F(BatchFacets, AFolderIsAssembledByThemAndARunIsRefused) {
   paint(grey_, red_);
   ASSERT_EQ(run({"assemble", scans(), "--out", folder_ / "out", "--facets", painted_}).exit_code, 0);
   SQLite::Database database(folder_ / "out/run/run.sqlite", SQLite::OPEN_READONLY);
   EXPECT_EQ(database.execAndGet("SELECT name FROM fragment WHERE facets <> ''").getString(), "b7.ply");
   EXPECT_EQ(run({"assemble", without(), "--facets", painted_}).exit_code, 2);
-  const Finished same = run({"batch", scans(), "--out", run_, "--facets", scans() + "/."});
-  EXPECT_EQ(same.exit_code, 2);
-  EXPECT_NE(same.err.find("--facets: names the folder of the scans"), std::string::npos) << same.err;
+}
+
+TEST_F(BatchFacets, PaintMayLieBesideTheScans) {
+  paint(grey_, red_);
+  const std::string both = folder_ / "both";
+  fs::copy(scans(), both);
+  fs::copy(painted_, both);
+  const Finished done = run({"batch", both, "--out", run_, "--facets", both + "/."});
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  SQLite::Database database(run_ + "/run.sqlite", SQLite::OPEN_READONLY);
+  EXPECT_EQ(database.execAndGet("SELECT name FROM fragment WHERE facets <> ''").getString(), "b7.ply");
 }
 
 }  // namespace

@@ -118,6 +118,29 @@ std::string told_of_limit(int blocks, const std::string& arguments) {
   return told;
 }
 
+// Its picture alone is too large.
+TEST_F(Outputs, OutputsOfOptionsInAFolderOfPiecesGoAsWell) {
+  std::string text;
+  for (const double x : {0.0, 9.0})
+    for (int corner = 0; corner < 8; ++corner)
+      text += "v " + std::to_string(x + (corner & 1)) + " " + std::to_string(corner >> 1 & 1) + " " +
+              std::to_string(corner >> 2) + "\n";
+  for (const int first : {1, 9})
+    for (const auto& face : {"0 2 3", "0 3 1", "4 5 7", "4 7 6", "0 1 5", "0 5 4", "2 6 7", "2 7 3", "0 4 6",
+                             "0 6 2", "1 3 7", "1 7 5"}) {
+      text += "f";
+      for (const int at : {0, 2, 4}) text += " " + std::to_string(first + face[at] - '0');
+      text += "\n";
+    }
+  write_file(folder / "two.obj", text);
+  const std::string pieces = folder / "two";
+  fs::create_directory(pieces);
+  const std::string arguments = "split " + (folder / "two.obj") + " --table no --out " + pieces + " --json " +
+                                pieces + "/two.json --png " + pieces + "/two.png";
+  EXPECT_NE(told_of_limit(16, arguments).find("two.png"), std::string::npos);
+  EXPECT_TRUE(fs::is_empty(pieces));
+}
+
 TEST_F(Outputs, FolderOfPiecesThatWereNotAllWrittenIsEmptyAgain) {
   const std::string pieces = folder / "pieces";
   const std::string arguments = "shatter " + a + " --pieces 101 --spacing 5 --out " + pieces;

@@ -153,6 +153,10 @@ TEST_F(SplitCommand, TakesNoOutputThatMayReplaceAPiece) {
     EXPECT_EQ(lost.exit_code, 2) << json;
     EXPECT_NE(lost.err.find("has a name that a piece may get"), std::string::npos) << lost.err;
     EXPECT_FALSE(std::filesystem::exists(out));
+    std::filesystem::create_directory(out);
+    EXPECT_EQ(run({"split", balls, "--out", out, "--json", json}).exit_code, 2)
+        << "of a folder that is there";
+    std::filesystem::remove(out);
   }
   for (const std::string& json : {folder / "out/balls.json", folder / "balls_1.ply"}) {
     std::filesystem::remove_all(out);

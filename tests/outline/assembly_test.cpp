@@ -411,6 +411,35 @@ TEST(Assembly, ASecondSearchLooksAtWhatIsLeft) {
   EXPECT_EQ(assemble(board.pieces, first, options, Context()).unplaced, std::vector<std::size_t>{3});
 }
 
+/// Ends the search at its first pair.
+class CancellingMatcher final : public Matcher {
+ public:
+  explicit CancellingMatcher(Context& context) : context_(context) {}
+  void prepare(const std::vector<Piece>& /*pieces*/) override {}
+  PairResult match(std::size_t /*a*/, std::size_t /*b*/, const Context& /*context*/) const override {
+    context_.cancel();
+    return {};
+  }
+
+ private:
+  Context& context_;
+};
+
+TEST(Assembly, OfASecondSearchThatWasStoppedHasWhatTheFirstFound) {
+  const ThreadLimit limit(1);
+  const planted::Board board = planted::broken_board(4, 1, 0.05, 62);
+  const NeighbourMatcher first(board, 0, 2);
+  Context context;
+  CancellingMatcher second(context);
+  AssemblyOptions options;
+  options.second = &second;
+  const Assembly assembly = assemble(board.pieces, first, options, context);
+  EXPECT_TRUE(assembly.cancelled);
+  EXPECT_EQ(assembly.joins.size(), 2U);
+  EXPECT_EQ(assembly.untried, std::vector<std::size_t>{3});
+  EXPECT_TRUE(assembly.unplaced.empty());
+}
+
 TEST(Assembly, ASecondSearchIsNotAskedIfNothingIsLeft) {
   const ThreadLimit limit(1);
   const planted::Board board = planted::broken_board(3, 1, 0.05, 62);
@@ -420,6 +449,20 @@ TEST(Assembly, ASecondSearchIsNotAskedIfNothingIsLeft) {
   options.second = &second;
   EXPECT_EQ(assemble(board.pieces, first, options, Context()).joins.size(), 2U);
   EXPECT_TRUE(second.asked.empty());
+}
+
+TEST(Assembly, TellsOfACandidateThatNothingElseBearsOut) {
+  const planted::Board board = planted::broken_board(2, 1, 0.05, 62);
+  JoinCandidate lone;
+  lone.score = kSureScore;
+  lone.pose = Planar{0.0, {5000.0, 0.0}, false};  // they do not even touch
+  const Assembly assembly = assemble(board.pieces, {{{lone}}}, {}, Context());
+  ASSERT_EQ(assembly.unplaced.size(), 2U);
+  ASSERT_EQ(assembly.refused.size(), 2U);
+  EXPECT_EQ(assembly.refused[1].at, 0U);
+  Context cancelled;
+  cancelled.cancel();
+  EXPECT_TRUE(assemble(board.pieces, {{{lone}}}, {}, cancelled).refused.empty());
 }
 
 // The third piece takes the second one's place.

@@ -82,6 +82,9 @@ TEST(Polygon, InnerPointLiesInsideThoughTheMiddleDoesNot) {
   const std::vector<glm::dvec2> bow{{0, 0}, {10, 0}, {10, 6}, {7, 6}, {7, 2}, {2, 2}, {2, 6}, {0, 6}};
   EXPECT_EQ(inner_point(bow), glm::dvec2(8.5, 3.0));
   EXPECT_TRUE(contains(bow, inner_point(bow)));
+  const std::vector<std::vector<glm::dvec2>> frame{{{0, 0}, {10, 0}, {10, 10}, {0, 10}},
+                                                   {{1, 1}, {1, 9}, {8, 9}, {8, 1}}};
+  EXPECT_EQ(inner_point(frame), glm::dvec2(9.0, 5.0)) << "beside the hole";
 }
 
 }  // namespace

@@ -82,10 +82,11 @@ TEST_F(Read, FeaturesOfGeoJsonKeepTheirNames) {
   };
   const std::string text = fmt::format(R"({{"type":"FeatureCollection","features":[{},{},{}]}})",
                                        feature(R"("id":7,"properties":{"NAME":"Small"},)", 1.0),
-                                       feature(R"("id":7,"properties":null,)", 2.0), feature("", 3.0));
+                                       feature(R"("id":7,"properties":null,)", 2.0),
+                                       R"({"type":"Polygon","coordinates":[[[0,0],[3,0],[3,3],[0,3]]]})");
   const PieceSet set = read_pieces(write("a.geojson", text));
   ASSERT_EQ(set.pieces.size(), 3U);
-  EXPECT_EQ(set.pieces[0].outline.label, "");
+  EXPECT_EQ(set.pieces[0].outline.label, "") << "it is not the one before it";
   EXPECT_EQ(set.pieces[1].outline.label, "7");
   EXPECT_EQ(set.pieces[2].outline.label, "Small");
 }

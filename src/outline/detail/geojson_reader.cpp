@@ -39,7 +39,9 @@ class Reader {
     if (type == "GeometryCollection") return read_all(value, "geometries");
     if (type == "Feature" && value.contains("geometry")) {
       label_ = label_of(value);
-      return read(value["geometry"]);
+      read(value["geometry"]);
+      label_.clear();
+      return;
     }
     if (type == "Polygon") return add(member(value, "coordinates"));
     if (type == "MultiPolygon") {

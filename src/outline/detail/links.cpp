@@ -153,7 +153,7 @@ LinkedPieces link_pieces(const std::vector<Piece>& pieces, const std::vector<Pai
   return result;
 }
 
-void add_links(LinkedPieces& linked, const std::vector<PairResult>& pairs, const AssemblyOptions& options) {
+bool add_links(LinkedPieces& linked, const std::vector<PairResult>& pairs, const AssemblyOptions& options) {
   std::vector<PairResult> doubted = pairs;
   for (PairResult& pair : doubted)
     for (JoinCandidate& candidate : pair.candidates)
@@ -161,6 +161,7 @@ void add_links(LinkedPieces& linked, const std::vector<PairResult>& pairs, const
   const std::vector<Link> more = links_at(linked.shapes, doubted, linked.tolerance, options);
   linked.links.insert(linked.links.end(), more.begin(), more.end());
   std::ranges::stable_sort(linked.links, {}, [](const Link& link) { return std::pair(link.a, link.b); });
+  return !more.empty();
 }
 
 bool lies_so(const Link& link, const LinkedPieces& pieces, const Layout& placed) {

@@ -46,7 +46,8 @@ LinkedPieces link_pieces(const std::vector<Piece>& pieces, const std::vector<Pai
                          const AssemblyOptions& options);
 
 /// Adds the candidates of a second search, measured at the same scale and believed less.
-void add_links(LinkedPieces& linked, const std::vector<PairResult>& pairs, const AssemblyOptions& options);
+/// \return whether there are such
+bool add_links(LinkedPieces& linked, const std::vector<PairResult>& pairs, const AssemblyOptions& options);
 
 /// Whether a link's pieces lie about as it says.
 bool lies_so(const Link& link, const LinkedPieces& pieces, const Layout& placed);
