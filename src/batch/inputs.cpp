@@ -187,9 +187,8 @@ std::string told_of_painted(const fs::path& folder) {
   }
   if (painted.empty()) return "";
   return fmt::format(
-      "{} in {} ({}{}) taken for no scan: rejoin facets writes painted breaks under such names, which "
-      "--facets DIR "
-      "uses (a scan needs another)",
+      "{} in {} ({}{}) taken for no scan: rejoin facets writes painted breaks under such names, "
+      "which --facets DIR uses (a scan needs another)",
       counted(painted.size(), "file"), folder.string(), *painted.begin(), painted.size() == 1 ? "" : ", ...");
 }
 

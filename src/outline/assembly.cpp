@@ -486,6 +486,7 @@ Assembly assemble(const std::vector<Piece>& pieces, const Matcher& matcher, cons
     if (!pair.matched) open.insert({pair.a, pair.b});
   const auto tried = std::stable_partition(assembly.unplaced.begin(), assembly.unplaced.end(),
                                            [&](std::size_t piece) { return open.count(piece) == 0; });
+  std::erase_if(assembly.refused, [&](const AssemblyRival& one) { return open.count(one.piece) > 0; });
   assembly.untried.assign(tried, assembly.unplaced.end());
   assembly.unplaced.erase(tried, assembly.unplaced.end());
   return assembly;
