@@ -102,7 +102,7 @@ std::vector<Hypothesis> measure_join(const match::Fragment& a, const match::Frag
   const auto passes = match::passes(joint.tolerance(), match::Options().max_candidates);
   for (std::size_t k = 0; k < passes.size(); ++k) {
     match::refine(list, joint, passes[k], Context());
-    list = match::distinct(list, b, std::min(a.diameter, b.diameter), passes[k].kept);
+    list = match::shortlist(list, a, b, passes[k].kept);
     const double seconds = lap(last);
     stages.add(k + 1, fmt::format("pass {}", k + 1), list, truth, a, b, seconds);
     lap(last);

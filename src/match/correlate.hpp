@@ -21,7 +21,7 @@ struct Agreement {
 
 struct CorrelateOptions {
   float noise_slope = 0.04F;    ///< slopes below this are scan noise: flat on flat explains nothing
-  float least_overlap = 0.15F;  ///< of the smaller map's pixels
+  float least_overlap = 0.05F;  ///< of the smaller map's pixels
   float least_pixels = 24.0F;
   float outline_weight = 2.0F;  ///< of the outlines' score against that of the slopes
   int most_peaks = 6;           ///< best local maxima that are returned a call

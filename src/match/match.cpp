@@ -180,7 +180,7 @@ void align(std::vector<Hypothesis>& hypotheses, const Joint& joint, const Fragme
   for (const Pass& pass : rounds) {
     refine(hypotheses, joint, pass, context);
     if (near) keep_near(hypotheses, *near);
-    hypotheses = distinct(hypotheses, b, std::min(a.diameter, b.diameter), pass.kept);
+    hypotheses = shortlist(hypotheses, a, b, pass.kept);
     if (context.cancelled()) break;
   }
 }
@@ -192,7 +192,7 @@ void keep_laid(std::vector<Hypothesis>& hypotheses, const Joint& joint, const Fr
   std::vector<Hypothesis> laid{{near.pose(), {}, 0.0, -1, -1}};
   align(laid, joint, a, b, near, rounds, context);
   if (laid.empty() || options.max_candidates < 2) return;
-  if (hypotheses.size() >= static_cast<std::size_t>(options.max_candidates)) hypotheses.pop_back();
+  hypotheses.resize(std::min(hypotheses.size(), static_cast<std::size_t>(options.max_candidates) - 1));
   const double worth = rank(laid.front().evidence);
   const auto place =
       std::ranges::find_if(hypotheses, [&](const Hypothesis& other) { return rank(other.evidence) < worth; });
@@ -264,10 +264,10 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
     return result;
   }
   if (!context.cancelled()) align(hypotheses, joint, a, b, near, std::span(rounds).subspan(kGlance), context);
-  hypotheses.resize(std::min(hypotheses.size(), static_cast<std::size_t>(options.max_candidates)));
   if (near && !context.cancelled()) keep_laid(hypotheses, joint, a, b, *near, rounds, options, context);
   if (!context.cancelled()) tighten(hypotheses, joint, b, std::min(a.diameter, b.diameter));
   weigh(hypotheses, joint);
+  hypotheses.resize(std::min(hypotheses.size(), static_cast<std::size_t>(options.max_candidates)));
   if (!context.cancelled()) settle(hypotheses, joint, b, std::min(a.diameter, b.diameter));
   if (near) keep_near(hypotheses, *near);
   if (options.search == Search::Sweep) keep_axes(hypotheses, options, result.warnings);

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include "core/parallel.hpp"
+#include "match/cuts.hpp"
 #include "match/esa_search.hpp"
 #include "match/verify.hpp"
 
@@ -17,6 +20,9 @@ constexpr double kUnbacked = 0.9;               // share of the contact
 constexpr double kSkin = 4.0;                   // patches: less goes on at wrong poses, too
 constexpr double kLeastTouching = 0.82;         // of what lies over the other surface, what touches
 constexpr double kLeastAgreement = 0.18;        // nats a patch: gaps vary by 0.84 of what the surfaces do
+constexpr std::size_t kShare =
+    8;  // of the places that go on, of which the poses of one pair of facets take one share
+constexpr std::size_t kLeastOfOne = 3;  // at least
 constexpr double kNoLimit = -std::numeric_limits<double>::infinity();
 
 void sort_by_rank(std::vector<Hypothesis>& list) {
@@ -41,26 +47,50 @@ void tighten_one(Hypothesis& hypothesis, const Joint& joint) {
   }
 }
 
+/// Adds a pose that is none of those in the list.
+/// \return whether it was
+bool add_if_new(const Hypothesis& hypothesis, const glm::dvec3& centre, double diameter,
+                std::vector<Hypothesis>& list) {
+  const bool known = std::any_of(list.begin(), list.end(), [&](const Hypothesis& other) {
+    return same_pose(other.pose, hypothesis.pose, centre, diameter);
+  });
+  if (!known) list.push_back(hypothesis);
+  return !known;
+}
+
+/// The facets of both pieces that poses come from, as users see them: what is one facet there may be several elsewhere.
+class PairsOfFacets {
+ public:
+  PairsOfFacets(const Fragment& a, const Fragment& b) : a_(a), b_(b) {}
+
+  std::pair<int, int> of(const Hypothesis& hypothesis) {
+    return {seen(a_, hypothesis.facet_a, seen_a_), seen(b_, hypothesis.facet_b, seen_b_)};
+  }
+
+ private:
+  static int seen(const Fragment& fragment, int facet, std::map<int, int>& known) {
+    const auto [place, is_new] = known.try_emplace(facet, -1);
+    if (is_new && facet >= 0) place->second = seen_facet(fragment, facet);
+    return place->second;
+  }
+
+  const Fragment& a_;
+  const Fragment& b_;
+  std::map<int, int> seen_a_;
+  std::map<int, int> seen_b_;
+};
+
 /// With less information where only large, smooth shape agrees, loosely.
 Evidence told(const Evidence& evidence, const Joint& joint, const Rigid& pose) {
   return strength(evidence) > 0.0 ? told_by_scale(evidence, joint.share_by_scale(pose)) : evidence;
 }
 
-/// With at most as much information as leaves a joint as likely as not, where what touches may be walls, solid pieces lie loosely on each
-/// other, or hardly any shape agrees.
+/// Held back where what touches may be walls, solid pieces lie loosely on each other, or hardly any shape agrees.
 Evidence held_back(const Evidence& evidence, const Joint& joint) {
   const bool solid = joint.thickness() <= 0.0;
-  if (!may_be_walls(evidence) && !(solid && lies_loosely(evidence)) && !hardly_agrees(evidence))
-    return evidence;
-  const double whole = strength(evidence);
-  if (whole <= kEven) return evidence;
-  Evidence held = evidence;
-  held.information = held.near_information = 0.0;
-  const double skin = strength(held);
-  const double part = std::max(0.0, kEven - skin) / (whole - skin);
-  held.information = part * evidence.information;
-  held.near_information = part * evidence.near_information;
-  return held;
+  const bool doubtful =
+      may_be_walls(evidence) || (solid && lies_loosely(evidence)) || hardly_agrees(evidence);
+  return doubtful ? at_most_even(evidence) : evidence;
 }
 
 }  // namespace
@@ -79,8 +109,8 @@ std::vector<Pass> passes(double tolerance, int most) {
        1500,
        true,
        3 * kept},
-      {{6.0 * t, 2.0 * t, 20, 0}, 0, false, kept},
-      {{3.0 * t, 1.0 * t, 15, 0, true}, 0, false, kept}};
+      {{6.0 * t, 2.0 * t, 20, 0}, 0, false, 2 * kept},
+      {{3.0 * t, 1.0 * t, 15, 0, true}, 0, false, 2 * kept}};
 }
 
 void refine(std::vector<Hypothesis>& list, const Joint& joint, const Pass& pass, const Context& context) {
@@ -116,17 +146,36 @@ void refine(std::vector<Hypothesis>& list, const Joint& joint, const Pass& pass,
   sort_by_rank(list);
 }
 
-std::vector<Hypothesis> distinct(const std::vector<Hypothesis>& list, const Fragment& b, double diameter,
-                                 std::size_t most) {
+std::vector<Hypothesis> distinct(const std::vector<Hypothesis>& list, const Fragment& b, double diameter) {
   const glm::dvec3 centre = mesh::centroid(b.surface);
   std::vector<Hypothesis> kept;
+  for (const auto& hypothesis : list) add_if_new(hypothesis, centre, diameter, kept);
+  return kept;
+}
+
+std::vector<Hypothesis> shortlist(const std::vector<Hypothesis>& list, const Fragment& a, const Fragment& b,
+                                  std::size_t most) {
+  const glm::dvec3 centre = mesh::centroid(b.surface);
+  const double diameter = std::min(a.diameter, b.diameter);
+  const std::size_t share = std::max(kLeastOfOne, most / kShare);
+  PairsOfFacets facets(a, b);
+  std::map<std::pair<int, int>, std::size_t> taken;
+  std::vector<Hypothesis> kept;
+  std::vector<Hypothesis> waiting;
   for (const auto& hypothesis : list) {
-    const bool known = std::any_of(kept.begin(), kept.end(), [&](const Hypothesis& other) {
-      return same_pose(other.pose, hypothesis.pose, centre, diameter);
-    });
-    if (!known) kept.push_back(hypothesis);
     if (kept.size() == most) break;
+    std::size_t& of_these = taken[facets.of(hypothesis)];
+    if (of_these == share) {
+      if (waiting.size() < most) add_if_new(hypothesis, centre, diameter, waiting);
+    } else if (add_if_new(hypothesis, centre, diameter, kept)) {
+      ++of_these;
+    }
   }
+  for (const auto& hypothesis : waiting) {
+    if (kept.size() == most) break;
+    add_if_new(hypothesis, centre, diameter, kept);
+  }
+  sort_by_rank(kept);
   return kept;
 }
 
@@ -137,7 +186,7 @@ void tighten(std::vector<Hypothesis>& list, const Joint& joint, const Fragment& 
     }
   });
   sort_by_rank(list);
-  list = distinct(list, b, diameter, list.size());
+  list = distinct(list, b, diameter);
 }
 
 bool may_be_walls(const Evidence& evidence) {
@@ -151,6 +200,18 @@ bool lies_loosely(const Evidence& evidence) {
 bool hardly_agrees(const Evidence& evidence) {
   const double patches = evidence.shared_area / std::max(evidence.patch_area, 1e-300);
   return std::max(evidence.information, evidence.near_information) < kLeastAgreement * patches;
+}
+
+Evidence at_most_even(const Evidence& evidence) {
+  const double whole = strength(evidence);
+  if (whole <= kEven) return evidence;
+  Evidence held = evidence;
+  held.information = held.near_information = 0.0;
+  const double skin = strength(held);
+  const double part = std::max(0.0, kEven - skin) / (whole - skin);
+  held.information = part * evidence.information;
+  held.near_information = part * evidence.near_information;
+  return held;
 }
 
 Evidence weigh(const Evidence& evidence, const Joint& joint, const Rigid& pose) {
@@ -193,7 +254,7 @@ void settle(std::vector<Hypothesis>& list, const Joint& joint, const Fragment& b
       hypothesis.evidence = weigh(joint.agreed_evidence(hypothesis.pose), joint, hypothesis.pose);
     }
   });
-  list = distinct(list, b, diameter, list.size());
+  list = distinct(list, b, diameter);
 }
 
 }  // namespace rejoin::match

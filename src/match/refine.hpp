@@ -29,7 +29,7 @@ struct Pass {
 
 /// The rounds of a match, first to last; each costs more a hypothesis and keeps fewer.
 /// \param tolerance  Joint::tolerance(), mesh units
-/// \param most       poses left in the end
+/// \param most       poses that are asked for in the end; twice as many are left, as weigh() puts some of the first last
 std::vector<Pass> passes(double tolerance, int most);
 
 /// Aligns every hypothesis, moves it where that does not weaken it (what shape a small contact has may not hold it), and sorts
@@ -37,10 +37,15 @@ std::vector<Pass> passes(double tolerance, int most);
 /// what was found is not lost; the others are dropped.
 void refine(std::vector<Hypothesis>& list, const Joint& joint, const Pass& pass, const Context& context);
 
-/// The first `most` of a list that are different poses.
+/// Of poses that are the same the first.
 /// \param diameter  of the smaller fragment, mesh units
-std::vector<Hypothesis> distinct(const std::vector<Hypothesis>& list, const Fragment& b, double diameter,
-                                 std::size_t most);
+std::vector<Hypothesis> distinct(const std::vector<Hypothesis>& list, const Fragment& b, double diameter);
+
+/// The first `most` of a list that are different poses, but of one pair of facets an eighth of them, or three, as long as there are
+/// others: where sawn or moulded faces lie on each other, all their poses look better than that of a small break.
+/// \pre sorted by refine()
+std::vector<Hypothesis> shortlist(const std::vector<Hypothesis>& list, const Fragment& a, const Fragment& b,
+                                  std::size_t most);
 
 /// Aligns the first, and all others that may be a join, again with shorter reaches and takes what is stronger, for how far
 /// worn places have to be left out differs from joint to joint; then sorts, and keeps one of poses that came together.
@@ -59,6 +64,9 @@ bool lies_loosely(const Evidence& evidence);
 /// Whether a large contact tells by its size alone: of the shape of each patch hardly any agrees, as where sawn or tooled faces lie on each
 /// other and the best of many poses fits their marks a little.
 bool hardly_agrees(const Evidence& evidence);
+
+/// The evidence with at most as much information as leaves a joint as likely as not.
+Evidence at_most_even(const Evidence& evidence);
 
 /// The evidence of a pose with less information where it would say too much: where only large, smooth shape agrees, loosely
 /// (told_by_scale()), and where what touches may be walls, solid pieces lie loosely on each other, or hardly any shape agrees: such a joint is

@@ -185,9 +185,33 @@ TEST(Correlate, FieldsAreShorterThanBothMapsTogether) {
   Random random(16);
   const ReliefMap a = round_map(random, 52, 52);
   const ReliefMap b = round_map(random, 52, 52);
-  Correlator correlator(a, CorrelateOptions{});
+  Correlator correlator(a, {.least_overlap = 0.15F});
   correlator.peaks(b);
   EXPECT_LE(correlator.shifts(), 100L * 100L);
+}
+
+TEST(Correlate, LongStripsThatShareATenthAreFound) {
+  Random random(18);
+  constexpr int kShared = 22;
+  constexpr int kAcross = 6;
+  constexpr int kLong = 220;
+  const ReliefMap a = random_map(random, kLong, kAcross);
+  ReliefMap b = random_map(random, kLong, kAcross);
+  for (int j = 0; j < kAcross; ++j) {
+    for (int i = 0; i < kShared; ++i) {  // b begins where a ends
+      const auto to = static_cast<std::size_t>(j * kLong + i);
+      const std::size_t from = to + static_cast<std::size_t>(kLong - kShared);
+      b.mask[to] = a.mask[from];
+      b.slope_u[to] = a.slope_u[from];
+      b.slope_v[to] = a.slope_v[from];
+    }
+  }
+  count_pixels(b);
+  Correlator correlator(a, CorrelateOptions{});
+  const auto peaks = correlator.peaks(b);
+  ASSERT_FALSE(peaks.empty());
+  EXPECT_EQ(peaks.front().shift_u, kLong - kShared);
+  EXPECT_EQ(peaks.front().shift_v, 0);
 }
 
 TEST(Correlate, OrderIsAPermutationThatKeepsLikeSizesTogether) {

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <initializer_list>
+#include <vector>
 
 #include "core/random.hpp"
 #include "match/verify.hpp"
@@ -98,9 +100,38 @@ TEST(Refine, PosesThatComeTogetherInTighteningAreOne) {
   std::vector<Hypothesis> list = moved_from_truth(pair, joint, {0.3, -0.3});
   const double diameter =
       20.0;  // 2 % of it, within which poses are one, is less than the 0.6 mm between these
-  ASSERT_EQ(distinct(list, pair.b, diameter, 2).size(), 2U);
+  ASSERT_EQ(distinct(list, pair.b, diameter).size(), 2U);
   tighten(list, joint, pair.b, diameter);
   EXPECT_EQ(list.size(), 1U);
+}
+
+/// Poses of one pair of facets, far from each other, each worth less than the one before.
+std::vector<Hypothesis> poses_of(int facet_a, int facet_b, int count, const Evidence& evidence,
+                                 double first_worth, double aside) {
+  std::vector<Hypothesis> list;
+  for (int k = 0; k < count; ++k) {
+    Hypothesis hypothesis;
+    hypothesis.pose.translation = glm::dvec3(1000.0 * k, aside, 0.0);
+    hypothesis.evidence = evidence;
+    hypothesis.evidence.information = first_worth - k;
+    hypothesis.facet_a = facet_a;
+    hypothesis.facet_b = facet_b;
+    list.push_back(hypothesis);
+  }
+  return list;
+}
+
+TEST(Refine, PosesOfOnePairOfFacetsLeavePlacesToOthers) {
+  const Pair pair = make_pair(6);
+  const Evidence evidence = Joint(pair.a, pair.b).agreed_evidence(pair.truth);
+  std::vector<Hypothesis> list = poses_of(0, 0, 100, evidence, 500.0, 0.0);
+  const std::vector<Hypothesis> weaker = poses_of(-1, -1, 2, evidence, 50.0, 5000.0);
+  list.insert(list.end(), weaker.begin(), weaker.end());
+  const auto kept = shortlist(list, pair.a, pair.b, 16);
+  ASSERT_EQ(kept.size(), 16U);
+  EXPECT_EQ(std::ranges::count(kept, -1, &Hypothesis::facet_a), 2);
+  for (int k = 0; k < 14; ++k)  // the best of the first pair's take what is left
+    EXPECT_EQ(kept[static_cast<std::size_t>(k)].evidence.information, 500.0 - k);
 }
 
 TEST(Refine, MovesWhatGainsAndLeavesWhatWouldWeaken) {
