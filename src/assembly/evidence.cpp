@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "match/refine.hpp"
+#include "match/stability.hpp"
+#include "match/verify.hpp"
+
 namespace rejoin::assembly {
 namespace {
 
@@ -19,7 +23,11 @@ double log_odds(double score) {
 
 match::Evidence contact_evidence(const Piece& a, const Piece& b, const Rigid& b_to_a) {
   const match::Joint joint(a.fragment(), b.fragment());
-  return joint.agreed_evidence(match::to_origins(a.fragment(), b.fragment(), b_to_a));
+  const Rigid at = match::to_origins(a.fragment(), b.fragment(), b_to_a);
+  const match::Evidence evidence = match::weigh(joint.agreed_evidence(at), joint, at);
+  if (match::strength(evidence) <= match::kEven) return evidence;
+  const auto stability = match::probe(joint, at, evidence);
+  return stability && match::slides(*stability) ? match::at_most_even(evidence) : evidence;
 }
 
 bool same_pose(const Piece& a, const Piece& b, const Rigid& first, const Rigid& second,

@@ -33,9 +33,13 @@ double score_of(double strength) {
   return 1.0 / (1.0 + std::exp(-log_odds(strength)));
 }
 
+bool slides(const Stability& stability) {
+  return stability.slide > kHeld;
+}
+
 Verdict verdict_of(double score, const std::optional<Stability>& stability) {
   const bool holds =
-      stability && stability->repeat_deg <= kSteady && stability->slide <= kHeld && !has_rival(*stability);
+      stability && stability->repeat_deg <= kSteady && !slides(*stability) && !has_rival(*stability);
   if (score >= kSure && holds) return Verdict::Join;
   return score >= kPossible ? Verdict::Unsure : Verdict::NoJoin;
 }

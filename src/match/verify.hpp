@@ -25,6 +25,9 @@ double log_odds(double strength);
 /// Strength -> probability that the pieces join, 0 .. 1.  \source docs/scoring.md tells how it was calibrated.
 double score_of(double strength);
 
+/// Whether nothing in the joint holds one piece on the other in some direction.
+bool slides(const Stability& stability);
+
 /// \param score      of the best candidate
 /// \param stability  of it; a pose that half of the samples would turn, that another one comes near, or that was not probed, is no
 ///                   sure join
