@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "core/components.hpp"
@@ -24,6 +26,11 @@ constexpr float kOpen = 0.7F;        // are free, at least, of what counts as op
 constexpr double kPorous = 0.1;      // of a porous piece's area is deep
 constexpr std::size_t kMouths = 12;  // of a porous piece
 constexpr std::size_t kMouth = 12;   // edges around one: less may be a dent, or noise
+constexpr double kDrawn = 0.65;      // of what is deep shows along one direction in the relief of a break
+constexpr std::size_t kAxes = 64;    // lines along which a piece may have been drawn out, both ways
+constexpr std::size_t kFacesAsked = 150;  // of a deep place, at most
+constexpr float kUndercut =
+    0.3F;  // cosine by which a face may look away from the direction along which it shows
 
 /// How open places of a surface are.
 class Outside {
@@ -34,13 +41,16 @@ class Outside {
         reach_(static_cast<float>(kReach * size)),
         start_(0.3F * static_cast<float>(resolution(mesh))) {}
 
+  /// Whether nothing is near in front of a place in a direction.
+  bool shows(const glm::vec3& place, const glm::vec3& normal, const glm::vec3& direction) const {
+    return !scene_.first_hit(place + start_ * normal, direction, 0.0F, reach_);
+  }
+
   /// Share of the directions about a normal in which nothing is near.
   float seen_from(const glm::vec3& place, const glm::vec3& normal) const {
     const glm::mat3 frame = detail::frame_about(normal);
-    const glm::vec3 above = place + start_ * normal;  // over the noise of a scan
-    const auto free = std::ranges::count_if(directions_, [&](const glm::vec3& direction) {
-      return !scene_.first_hit(above, frame * direction, 0.0F, reach_);
-    });
+    const auto free = std::ranges::count_if(
+        directions_, [&](const glm::vec3& direction) { return shows(place, normal, frame * direction); });
     return static_cast<float>(free) / static_cast<float>(kDirections);
   }
 
@@ -48,7 +58,7 @@ class Outside {
   RayScene scene_;
   std::vector<glm::vec3> directions_;
   float reach_;
-  float start_;
+  float start_;  // over the noise of a scan
 };
 
 double deep_share(const Mesh& mesh, const Outside& outside) {
@@ -61,16 +71,18 @@ double deep_share(const Mesh& mesh, const Outside& outside) {
   return static_cast<double>(std::ranges::count(deep, 1)) / static_cast<double>(samples.size());
 }
 
+glm::vec3 middle_of(const Mesh& mesh, std::size_t face) {
+  const auto& corners = mesh.faces[face];
+  return (mesh.vertices[corners[0]] + mesh.vertices[corners[1]] + mesh.vertices[corners[2]]) / 3.0F;
+}
+
 /// Of every face, evened out over the faces around its corners.
 std::vector<float> openness(const Mesh& mesh, const Outside& outside) {
   const std::vector<glm::vec3> normals = face_normals(mesh);
   std::vector<float> of_face(mesh.faces.size());
   parallel_for(of_face.size(), 256, [&](std::size_t first, std::size_t last) {
     for (std::size_t f = first; f < last; ++f) {
-      const auto& face = mesh.faces[f];
-      const glm::vec3 middle =
-          (mesh.vertices[face[0]] + mesh.vertices[face[1]] + mesh.vertices[face[2]]) / 3.0F;
-      of_face[f] = outside.seen_from(middle, normals[f]);
+      of_face[f] = outside.seen_from(middle_of(mesh, f), normals[f]);
     }
   });
   std::vector<float> sums(mesh.vertices.size(), 0.0F);
@@ -113,13 +125,66 @@ std::size_t mouths(const Mesh& mesh, const std::vector<float>& open) {
   return static_cast<std::size_t>(std::ranges::count_if(edges, [](std::size_t n) { return n >= kMouth; }));
 }
 
+/// The deep faces, in places that hang together.
+std::vector<std::vector<std::uint32_t>> deep_places(const Mesh& mesh, const std::vector<float>& open) {
+  Components joined(mesh.vertices.size());
+  for (std::size_t f = 0; f < open.size(); ++f) {
+    if (open[f] >= kDeep) continue;
+    joined.unite(mesh.faces[f][0], mesh.faces[f][1]);
+    joined.unite(mesh.faces[f][0], mesh.faces[f][2]);
+  }
+  std::map<std::uint32_t, std::vector<std::uint32_t>> places;
+  for (std::uint32_t f = 0; f < open.size(); ++f)
+    if (open[f] < kDeep) places[joined.of(mesh.faces[f][0])].push_back(f);
+  std::vector<std::vector<std::uint32_t>> list;
+  for (auto& [first, faces] : places)
+    if (faces.size() >= kMouth) list.push_back(std::move(faces));
+  return list;
+}
+
+/// Of what is deep the share that shows along one direction, another one for every place: the splinters of a break, however deep
+/// the valleys between them are, were drawn out of the other piece; pores narrow towards their mouths and hide most of themselves.
+double drawn_share(const Mesh& mesh, const std::vector<float>& open, const Outside& outside) {
+  const std::vector<glm::vec3> normals = face_normals(mesh);
+  std::vector<glm::vec3> directions = detail::half_sphere_directions(kAxes);
+  for (std::size_t k = 0; k < kAxes; ++k) directions.push_back(-directions[k]);
+  const std::vector<std::vector<std::uint32_t>> places = deep_places(mesh, open);
+  std::vector<double> shown(places.size(), 0.0);  // faces
+  parallel_for(places.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t place = first; place < last; ++place) {
+      const std::vector<std::uint32_t>& faces = places[place];
+      const std::size_t step = faces.size() / kFacesAsked + 1;
+      std::vector<std::size_t> along(directions.size(), 0);
+      std::size_t asked = 0;
+      for (std::size_t k = 0; k < faces.size(); k += step) {
+        ++asked;
+        const glm::vec3 middle = middle_of(mesh, faces[k]);
+        const glm::vec3& normal = normals[faces[k]];
+        for (std::size_t d = 0; d < directions.size(); ++d) {
+          if (glm::dot(directions[d], normal) > -kUndercut && outside.shows(middle, normal, directions[d]))
+            ++along[d];
+        }
+      }
+      const auto most = static_cast<double>(*std::ranges::max_element(along));
+      shown[place] = most / static_cast<double>(asked) * static_cast<double>(faces.size());
+    }
+  });
+  double sum = 0.0;
+  double all = 0.0;
+  for (std::size_t place = 0; place < places.size(); ++place) {
+    sum += shown[place];
+    all += static_cast<double>(places[place].size());
+  }
+  return all > 0.0 ? sum / all : 0.0;
+}
+
 }  // namespace
 
 std::optional<Open> without_pores(const Mesh& mesh, double size) {
   const Outside outside(mesh, size);
   if (deep_share(mesh, outside) < kPorous) return std::nullopt;
   const std::vector<float> open = openness(mesh, outside);
-  if (mouths(mesh, open) < kMouths) return std::nullopt;
+  if (mouths(mesh, open) < kMouths || drawn_share(mesh, open, outside) >= kDrawn) return std::nullopt;
   std::vector<std::uint32_t> kept;
   for (std::uint32_t f = 0; f < open.size(); ++f)
     if (open[f] >= kOpen) kept.push_back(f);

@@ -91,6 +91,20 @@ TEST(Pores, CanalOfALongBoneIsNone) {
   EXPECT_FALSE(without_pores(bone, diameter(bone)));
 }
 
+// The valleys between splinters are as deep as pores and have as many mouths, but the other half was drawn out of them.
+TEST(Pores, SplintersOfWoodAreNone) {
+  const shatter::Grid grid{.size = 66.0, .spacing = 0.4};
+  const Mesh wood = shatter::surface_nets(
+      [](const glm::dvec3& p) {
+        const double end = 12.0 + 10.0 * std::sin(1.6 * p.x) * std::sin(1.6 * p.y);
+        return std::max(std::max(std::abs(p.x), std::abs(p.y)) - 12.0,
+                        0.1 * std::max(p.z - end, -25.0 - p.z));
+      },
+      grid, Context{});
+  const auto open = without_pores(wood, diameter(wood));
+  EXPECT_FALSE(open) << open->share;
+}
+
 TEST(Pores, AreTheSameInOtherUnitsAndPlaces) {
   const Mesh whole = sponge_where(everywhere);
   Mesh moved = whole;
