@@ -99,18 +99,20 @@ std::vector<Pass> passes(double tolerance, int most) {
   const double t = tolerance;
   const auto kept = static_cast<std::size_t>(most);
   // A reach much wider than the sweep's error would pull in surfaces beside the joint, the other wall of a thin piece above
-  // all; so would other facets at first.
+  // all; so would other facets at first.  Once it lies there, the rest of a splintery break tells what a splinter alone cannot.
   return {
       {{.reach_start = 10.0 * t, .reach_end = 4.0 * t, .iterations = 8, .most_samples = 120, .quick = true},
+       true,
        300,
        true,
        10 * kept},
       {{.reach_start = 8.0 * t, .reach_end = 3.0 * t, .iterations = 12, .most_samples = 300, .quick = true},
-       1500,
        true,
+       1500,
+       false,
        3 * kept},
-      {{6.0 * t, 2.0 * t, 20, 0}, 0, false, 2 * kept},
-      {{3.0 * t, 1.0 * t, 15, 0, true}, 0, false, 2 * kept}};
+      {{6.0 * t, 2.0 * t, 20, 0}, false, 0, false, 2 * kept},
+      {{3.0 * t, 1.0 * t, 15, 0, true}, false, 0, false, 2 * kept}};
 }
 
 void refine(std::vector<Hypothesis>& list, const Joint& joint, const Pass& pass, const Context& context) {
@@ -120,12 +122,12 @@ void refine(std::vector<Hypothesis>& list, const Joint& joint, const Pass& pass,
       if (context.cancelled() && k >= kEvenIfCancelled) continue;
       Hypothesis& hypothesis = list[k];
       AlignOptions options = pass.align;
-      options.facet_b = pass.facet_only ? hypothesis.facet_b : -1;
-      const bool all = pass.evidence_samples == 0 && !pass.facet_only;
+      options.facet_b = pass.facet_aligned ? hypothesis.facet_b : -1;
+      const int weighed_facet = pass.facet_weighed ? hypothesis.facet_b : -1;
+      const bool all = pass.evidence_samples == 0 && !pass.facet_weighed;
       const auto weighed = [&](double above, const Rigid& pose) {
         return all ? joint.agreed_evidence_above(above, pose)
-                   : joint.evidence_above(above, pose,
-                                          {pass.evidence_samples, options.facet_b, options.quick});
+                   : joint.evidence_above(above, pose, {pass.evidence_samples, weighed_facet, options.quick});
       };
       const Rigid moved = joint.align(hypothesis.pose, options);
       const Evidence after = *weighed(kNoLimit, moved);

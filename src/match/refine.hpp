@@ -22,9 +22,10 @@ struct Hypothesis {
 /// One round of alignment over all hypotheses that are left.
 struct Pass {
   AlignOptions align;
-  int evidence_samples = 0;  ///< of B that are looked at; 0: all
-  bool facet_only = false;   ///< only the facet of B that the hypothesis came from
-  std::size_t kept = 0;      ///< distinct poses that go on
+  bool facet_aligned = false;  ///< by the facet of B alone that the hypothesis came from
+  int evidence_samples = 0;    ///< of B that are looked at; 0: all
+  bool facet_weighed = false;  ///< of that facet alone
+  std::size_t kept = 0;        ///< distinct poses that go on
 };
 
 /// The rounds of a match, first to last; each costs more a hypothesis and keeps fewer.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
 #include <vector>
 
@@ -103,6 +104,36 @@ TEST(Refine, PosesThatComeTogetherInTighteningAreOne) {
   ASSERT_EQ(distinct(list, pair.b, diameter).size(), 2U);
   tighten(list, joint, pair.b, diameter);
   EXPECT_EQ(list.size(), 1U);
+}
+
+// One tooth's facet is small against others' flat faces; all teeth together are not.
+TEST(Refine, TeethFoundByOneOfThemAreWeighedTogether) {
+  const auto toothed = [](bool below) {
+    mesh::Mesh half = testing::half_block(below, 96);
+    for (auto& v : half.vertices) {
+      if (std::abs(v.z) < static_cast<float>(testing::kHalfZ))
+        v.z = 8.0F * std::abs(std::remainder(v.x, 20.0F)) / 10.0F + 2.0F * std::sin(0.3F * v.y + 0.1F * v.x);
+    }
+    return prepare(below ? "below" : "above", half, Context{});
+  };
+  const Fragment below = toothed(true);
+  const Fragment above = toothed(false);
+  const Joint joint(below, above);
+  const double whole = joint.evidence(Rigid{}, 0).contact_area;
+  int tooth = -1;
+  for (int f = 0; f < static_cast<int>(above.facets.facets.size()); ++f) {
+    const double of_it = joint.evidence(Rigid{}, 0, f).contact_area;
+    if (of_it > 0.05 * whole && of_it < 0.3 * whole) tooth = f;
+  }
+  ASSERT_GE(tooth, 0);
+  const auto contact_after = [&](const Pass& pass) {
+    std::vector<Hypothesis> list{{Rigid{}, {}, 0.0, 0, tooth}};
+    refine(list, joint, pass, Context{});
+    return list.front().evidence.contact_area;
+  };
+  const auto rounds = passes(joint.tolerance(), 8);
+  EXPECT_LT(contact_after(rounds[0]), 0.35 * whole);
+  EXPECT_GT(contact_after(rounds[1]), 0.9 * whole);
 }
 
 /// Poses of one pair of facets, far from each other, each worth less than the one before.
