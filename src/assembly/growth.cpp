@@ -38,9 +38,9 @@ std::vector<Touching> Grower::contacts_of(const Growth& growth,
       const double least = kContact * std::min(pieces_[a].area(), pieces_[b].area());
       if (link < links_.size()) {
         const bool same = links_[link].a == a;
-        contacts.push_back({a, b, same ? links_[link].pose : inverse(links_[link].pose), true});
+        contacts.push_back({a, b, same ? links_[link].pose : inverse(links_[link].pose), Known::Searched});
       } else if (touch(pieces_[a], pieces_[b], b_to_a).area > least) {
-        contacts.push_back({a, b, b_to_a, false});
+        contacts.push_back({a, b, b_to_a, Known::Met});
       }
     }
   }

@@ -164,7 +164,10 @@ std::vector<Facing> facing_points(const Piece& a, const Piece& b, const Rigid& b
   if (step == 1) return result;
   std::vector<Facing> fewer;
   fewer.reserve(result.size() / step + 1);
-  for (std::size_t i = 0; i < result.size(); i += step) fewer.push_back(result[i]);
+  for (std::size_t i = 0; i < result.size(); i += step) {
+    fewer.push_back(result[i]);
+    fewer.back().area_of_b *= static_cast<double>(step);
+  }
   return fewer;
 }
 

@@ -59,7 +59,7 @@ struct Facing {
   glm::dvec3 on_a;       ///< a's file coordinates
   glm::dvec3 normal_a;   ///< a's axes
   glm::dvec3 on_b;       ///< b's file coordinates
-  double area_of_b = 0;  ///< that b's point stands for
+  double area_of_b = 0;  ///< that b's point stands for, and those that are left out after it
 };
 
 /// b's broken points with their nearest neighbours on a's broken surface, within `reach` and face to face.

@@ -19,6 +19,7 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 constexpr int kRounds = 14;
 constexpr double kReachStart = 16.0;  // touching distances
 constexpr double kReachEnd = 3.0;
+constexpr double kReachMet = 2.0;
 constexpr std::size_t kMostPoints = 500;  // a pair and way
 constexpr double kPull = 0.03;            // weight of the pair's own pose against a contact point's
 constexpr std::size_t kLeastPoints = 8;   // a contact of fewer says nothing
@@ -54,7 +55,12 @@ Vector6 row_of(const glm::dvec3& arm, const glm::dvec3& direction) {
 class Rounds {
  public:
   Rounds(const std::vector<Piece>& pieces, const std::vector<Touching>& contacts, const glm::dvec3& centre)
-      : pieces_(pieces), contacts_(contacts), centre_(centre) {}
+      : pieces_(pieces), contacts_(contacts), centre_(centre) {
+    for (const Touching& contact : contacts) {
+      for (const std::size_t piece : {contact.a, contact.b})
+        unit_area_ = std::max(unit_area_, pieces[piece].fragment().facets.sample_area);
+    }
+  }
 
   std::vector<Block> blocks(const std::vector<Rigid>& poses, double share) const {
     std::vector<Block> result(contacts_.size());
@@ -68,21 +74,22 @@ class Rounds {
   Block block(const Touching& contact, const std::vector<Rigid>& poses, double share) const {
     const Piece& a = pieces_[contact.a];
     const Piece& b = pieces_[contact.b];
-    const double reach = match::contact_tolerance(a.fragment(), b.fragment()) * kReachStart *
-                         std::pow(kReachEnd / kReachStart, share);
+    const double reach =
+        match::contact_tolerance(a.fragment(), b.fragment()) *
+        (contact.known == Known::Met ? kReachMet : kReachStart * std::pow(kReachEnd / kReachStart, share));
     const Rigid b_to_a = inverse(poses[contact.a]) * poses[contact.b];
     Block result;
     double weight = 0.0;
     for (const Facing& f : facing_points(a, b, b_to_a, 1.5 * reach, kMostPoints)) {
       weight += add_contact(result, poses[contact.a](f.on_a), poses[contact.b](f.on_b),
-                            poses[contact.a].rotation * f.normal_a, reach, 1.0);
+                            poses[contact.a].rotation * f.normal_a, reach, f.area_of_b / unit_area_);
     }
     for (const Facing& f : facing_points(b, a, inverse(b_to_a), 1.5 * reach, kMostPoints)) {
       // Here the roles are swapped: the plane is b's, the point a's.
       weight += add_contact(result, poses[contact.a](f.on_b), poses[contact.b](f.on_a),
-                            poses[contact.b].rotation * f.normal_a, reach, 1.0);
+                            poses[contact.b].rotation * f.normal_a, reach, f.area_of_b / unit_area_);
     }
-    if (contact.matched)
+    if (contact.known == Known::Searched)
       add_pull(result, contact, poses, std::max(weight, static_cast<double>(kLeastPoints)));
     return result;
   }
@@ -117,6 +124,7 @@ class Rounds {
   const std::vector<Piece>& pieces_;
   const std::vector<Touching>& contacts_;
   glm::dvec3 centre_;
+  double unit_area_ = 0;  ///< a contact counts by its area; in this unit a point has about one
 };
 
 Rigid moved(const Rigid& pose, const Vector6& step, const glm::dvec3& centre) {

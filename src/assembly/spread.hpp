@@ -9,11 +9,17 @@
 namespace rejoin::assembly {
 
 /// Two pieces that touch, and how the pair alone would lie.
+enum class Known {
+  Searched,  ///< the pair's own alignment said its pose
+  Asked,     ///< whether the two fit where others put them is to be seen; the pose holds nothing
+  Met,  ///< they touch where others put them; the pose holds nothing, and what does not touch is not pulled together
+};
+
 struct Touching {
   std::size_t a = 0;  ///< into the pieces
   std::size_t b = 0;
-  Rigid pose;           ///< b -> a, file coordinates: what the pair's own alignment said
-  bool matched = true;  ///< false: `pose` is only where the assembly has put the two, and holds nothing
+  Rigid pose;  ///< b -> a, file coordinates
+  Known known = Known::Searched;
 };
 
 /// Moves the members of a group so that all their contacts fit as well as they can together: robust point-to-plane

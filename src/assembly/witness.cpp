@@ -37,7 +37,7 @@ class Meeting {
     if (forbidden_touch()) return std::nullopt;
     Heard sum;
     for (std::size_t k = 0; k < others; ++k) {
-      const auto [a, b, pose, matched] = contacts[k];
+      const auto [a, b, pose, known] = contacts[k];
       if (is_own(a, b)) continue;
       const double odds = witness_odds(contact_evidence(pieces_[a], pieces_[b], relative(a, b)));
       sum.all += odds;
@@ -99,7 +99,7 @@ class Meeting {
       const double least = kContact * std::min(pieces_[a].area(), pieces_[b].area());
       if (is_forbidden(a, b)) return false;
       if (is_own(a, b) || touch(pieces_[a], pieces_[b], b_to_a).area > least)
-        contacts.push_back({a, b, b_to_a, false});
+        contacts.push_back({a, b, b_to_a, Known::Asked});
       return false;
     };
     for (std::size_t g = 0; g < groups_.size(); ++g)
@@ -131,7 +131,7 @@ class Meeting {
       members.insert(members.end(), group.begin(), group.end());
       for (std::size_t x = 0; x < group.size(); ++x) {
         for (std::size_t y = x + 1; y < group.size(); ++y)
-          contacts.push_back({group[x], group[y], relative(group[x], group[y]), true});
+          contacts.push_back({group[x], group[y], relative(group[x], group[y]), Known::Searched});
       }
     }
     std::vector<std::size_t> fixed;
