@@ -67,17 +67,18 @@ std::vector<std::filesystem::path> write_depth_maps(const std::filesystem::path&
   return files;
 }
 
-mesh::Mesh tinted(const mesh::Mesh& surface, Colour tint) {
+/// The scan with its own colours, or else with the tint.
+mesh::Mesh coloured(const mesh::Mesh& surface, Colour tint) {
   mesh::Mesh result = surface;
-  result.colours.assign(result.vertices.size(), tint);
+  if (result.colours.empty()) result.colours.assign(result.vertices.size(), tint);
   return result;
 }
 
 /// \return the two files
 std::vector<std::filesystem::path> write_joined(const std::filesystem::path& folder, const match::Fragment& a,
                                                 const match::Fragment& b, const Rigid& pose) {
-  const mesh::Mesh first = tinted(a.surface, kTintA);
-  const mesh::Mesh second = tinted(b.surface, kTintB);
+  const mesh::Mesh first = coloured(a.surface, kTintA);
+  const mesh::Mesh second = coloured(b.surface, kTintB);
   std::vector<std::filesystem::path> files{folder / mesh::kJoinedGlb, folder / mesh::kJoinedPly};
   for (const auto& file : files)
     mesh::save_scene(file, {{file_name(a.path), &first, Rigid{}}, {file_name(b.path), &second, pose}});

@@ -27,7 +27,8 @@ std::vector<std::filesystem::path> match_outputs(const std::filesystem::path& fo
 /// frame), and where
 ///                          their slopes differ
 ///   convergence.svg        the course of an annealing search; of others the candidates' scores
-///   joined.glb, joined.ply A and B moved onto it, in A's file coordinates, each in its own colour
+///   joined.glb, joined.ply A and B moved onto it, in A's file coordinates, with the scans' colours;
+///                          a scan without has a tint
 /// Each file is written whole or not at all.  Without a candidate only convergence.svg is written, and
 /// what an earlier match left of the others is removed.
 /// \return the files, in the order in which they were written

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -198,6 +199,19 @@ TEST(MatchOutputs, AreWholeAndReadable) {
   EXPECT_NEAR(mesh::diameter(joined), std::sqrt(4 + 1 + 1.44), 0.03);  // both halves make the box again
   ASSERT_EQ(joined.colours.size(), joined.vertices.size());
   EXPECT_NE(joined.colours.front(), joined.colours.back());
+}
+
+TEST(MatchOutputs, ModelsKeepTheColoursOfAScanAndTintOneWithout) {
+  const Folder folder;
+  Planted pair = planted_pair(10);
+  const glm::u8vec3 clay(150, 90, 60);
+  pair.b.surface.colours.assign(pair.b.surface.vertices.size(), clay);
+  write_match_outputs(folder.path(), pair.a, pair.b, result_with(pair.pose), {32});
+  for (const char* name : {"joined.ply", "joined.glb"}) {
+    const mesh::Mesh joined = mesh::load(folder.path() / name).mesh;
+    ASSERT_EQ(joined.colours.size(), joined.vertices.size()) << name;
+    EXPECT_EQ(std::ranges::count(joined.colours, clay), pair.b.surface.vertices.size()) << name;
+  }
 }
 
 TEST(MatchOutputs, WithoutACandidateOnlyTheSearchIsShown) {
