@@ -131,11 +131,16 @@ class Work {
     warn_of_sizes();
   }
 
+  /// Whether the folder, or the user, has no pair end at the sweep.
+  bool all_in_full() const { return !options_.match.promising_only || names_.size() <= options_.few_scans; }
+
   /// Of this shard's pairs alone: with other scans in the folder the shard was another one, and what it did then is kept too.
+  /// Pairs that ended at the sweep among more scans are not done among few.
   void count_done() {
     std::set<std::pair<std::int64_t, std::int64_t>> failed;
     for (const store::Run::Done& pair : run_.done()) {
-      (pair.failed ? failed : done_).emplace(pair.a, pair.b);
+      if (pair.stage == store::Stage::Sweep && all_in_full()) continue;
+      (pair.stage == store::Stage::Failed ? failed : done_).emplace(pair.a, pair.b);
     }
     done_.insert(failed.begin(), failed.end());
     for (const Tile& tile : tiles_) {
@@ -272,7 +277,7 @@ class Work {
 
   match::Options options_of(const std::string& a, const std::string& b) const {
     match::Options options = options_.match;
-    if (names_.size() <= options_.few_scans) options.promising_only = false;
+    if (all_in_full()) options.promising_only = false;
     const auto laid_a = layout_.find(a);
     const auto laid_b = layout_.find(b);
     if (laid_a == layout_.end() || laid_b == layout_.end()) return options;

@@ -71,7 +71,8 @@ std::string matcher();
 std::string version();
 
 /// Matches all pairs of the folder's scans that the run's database lacks, several side by side.  The same inputs and options give the same
-/// content (but for seconds), whatever the number of threads and however often it was stopped.
+/// content (but for seconds), whatever the number of threads and however often it was stopped; pairs that were searched in full among
+/// options.few_scans scans stay so when more come.
 ///
 /// A scan that cannot be used, or a pair that fails, is marked and the rest goes on.  A file with the content of another has no pairs: the
 /// one that has some in the database, or else the one with the shorter name, stands for both (store::Run::copies_among()).

@@ -382,13 +382,21 @@ std::optional<std::pair<std::string, std::string>> option_of(const std::string& 
                                                              const ordered_json& all) {
   const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
   if (name == "resolution" || name == "backend") return std::pair("--" + name, text);
-  if (name == "promising_only") return std::pair("--thorough", value == false ? "yes" : "no");
   if (name == "max_candidates") return std::pair("poses kept of a pair", text);
   if (name == "chains" && all.value("search", "") == "sweep") return std::nullopt;  // of the annealing
   return std::pair(name, text);
 }
 
-void add_parameters(report::RunReport& report, const store::Run& run, const std::filesystem::path& folder) {
+/// Without the option pairs may be searched in full too, as those of small boxes are.
+std::string thorough(bool promising_only, const std::vector<store::Pair>& pairs) {
+  if (!promising_only) return "yes";
+  const auto ended_early = [](const store::Pair& pair) { return pair.stage == store::Stage::Sweep; };
+  return pairs.empty() || std::ranges::any_of(pairs, ended_early) ? "no" : "no, but no pair ended early";
+}
+
+/// \param pairs  of the run
+void add_parameters(report::RunReport& report, const store::Run& run, const std::filesystem::path& folder,
+                    const std::vector<store::Pair>& pairs) {
   const store::Parameters parameters = run.parameters();
   report.parameters = {{"run", folder.string()},
                        {"matched by", "rejoin " + parameters.version},
@@ -403,7 +411,11 @@ void add_parameters(report::RunReport& report, const store::Run& run, const std:
   const ordered_json json = ordered_json::parse(parameters.json, nullptr, false);
   if (!json.is_object()) return;
   for (const auto& [name, value] : json.items()) {
-    if (const auto option = option_of(name, value, json)) report.parameters.push_back(*option);
+    if (name == "promising_only") {
+      report.parameters.emplace_back("--thorough", thorough(value != false, pairs));
+    } else if (const auto option = option_of(name, value, json)) {
+      report.parameters.push_back(*option);
+    }
   }
 }
 
@@ -434,7 +446,7 @@ report::RunReport read_run(const std::filesystem::path& run, std::size_t listed,
     report.fragments.push_back(std::move(fragment));
   }
   const std::vector<store::Pair> pairs = add_pairs(report, database, numbers);
-  add_parameters(report, database, folder);
+  add_parameters(report, database, folder, pairs);
   const std::filesystem::path assembly = folder / kAssemblyName;
   const store::Remains remains = store::remains(database);
   report.missing_pairs = remains.missing;

@@ -285,11 +285,11 @@ void Run::each_pair(const std::function<void(const Pair&)>& visit) const {
 
 std::vector<Run::Done> Run::done() const {
   return detail::guarded(access_->path, [&] {
-    auto rows = access_->query("SELECT a, b, stage = 'failed' FROM pair ORDER BY a, b");
+    auto rows = access_->query("SELECT a, b, stage FROM pair ORDER BY a, b");
     std::vector<Done> list;
     while (rows.executeStep()) {
-      list.push_back(
-          {rows.getColumn(0).getInt64(), rows.getColumn(1).getInt64(), rows.getColumn(2).getInt() != 0});
+      list.push_back({rows.getColumn(0).getInt64(), rows.getColumn(1).getInt64(),
+                      detail::stage(rows.getColumn(2).getString())});
     }
     return list;
   });

@@ -62,7 +62,7 @@ class Run {
   struct Done {
     std::int64_t a;
     std::int64_t b;
-    bool failed;
+    Stage stage;
   };
   /// All pairs that are done, by ids, ascending; far cheaper than pairs().
   std::vector<Done> done() const;

@@ -159,7 +159,7 @@ TEST(Report, NamesParametersAsTheOptionsDo) {
   const PlantedRun run;
   ASSERT_EQ(testing::run({"report", run.folder, "--pictures", "0"}).exit_code, 0);
   const json expected = json::parse(R"([["matched by", "rejoin 0.1.0"], ["--seed", "7"], ["search", "sweep"],
-                                        ["--resolution", "128"], ["--thorough", "no"]])");
+                                        ["--resolution", "128"], ["--thorough", "no, but no pair ended early"]])");
   const json parameters = data_of(read_file(run.page))["parameters"];
   EXPECT_EQ(json(parameters.begin() + 1, parameters.end()), expected);
 }

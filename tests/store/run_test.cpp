@@ -113,10 +113,10 @@ TEST_F(RunTest, FailuresAreForgottenAndNothingElse) {
   bad.state = FragmentState::Bad;
   run.save(bad);
   ASSERT_EQ(run.done().size(), 2U);
-  EXPECT_TRUE(run.done()[1].failed);
+  EXPECT_EQ(run.done()[1].stage, Stage::Failed);
   run.forget_failures();
   ASSERT_EQ(run.done().size(), 1U);
-  EXPECT_FALSE(run.done()[0].failed);
+  EXPECT_NE(run.done()[0].stage, Stage::Failed);
   EXPECT_EQ(run.fragments()[2].state, FragmentState::Waiting);
 }
 
