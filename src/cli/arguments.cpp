@@ -89,14 +89,16 @@ std::vector<double> whole_numbers(const std::string& option, const std::string& 
 
 CLI::Option* add_seed(CLI::App& app, std::uint64_t& seed, const std::string& description) {
   const auto check = [](std::string& text) {
+    constexpr std::uint64_t kMost = std::numeric_limits<std::int64_t>::max();  // in a run's database
     std::uint64_t value = 0;
     const char* end = text.data() + text.size();
     const auto [stopped, problem] = std::from_chars(text.data(), end, value);
-    if (problem == std::errc() && stopped == end && is_whole(text)) return std::string();
-    return fmt::format("'{}' is no whole number from 0 to {}", text,
-                       std::numeric_limits<std::uint64_t>::max());
+    if (problem == std::errc() && stopped == end && is_whole(text) && value <= kMost) return std::string();
+    return fmt::format("'{}' is no whole number from 0 to {}", text, kMost);
   };
-  return app.add_option("--seed", seed, description)->type_name("S")->check(CLI::Validator(check, ""));
+  return app.add_option("--seed", seed, description + ", below 2^63 (1)")
+      ->type_name("S")
+      ->check(CLI::Validator(check, ""));
 }
 
 glm::dvec3 parse_direction(const std::string& option, const std::string& text) {

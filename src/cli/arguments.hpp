@@ -82,7 +82,8 @@ CLI::Option* add_numbers(CLI::App& app, const std::string& name, std::vector<Num
       ->take_all();
 }
 
-/// Adds --seed.
+/// Adds --seed, a whole number that a run's database can hold: 0 .. 2^63 - 1.
+/// \param description  without the range
 CLI::Option* add_seed(CLI::App& app, std::uint64_t& seed, const std::string& description);
 
 /// A direction "x,y,z", scaled to unit length.

@@ -41,7 +41,7 @@ void MatchOptions::define(CLI::App& app) {
   add_choice(app, "--backend", options_.backend, backend_choices(), "what draws");
   chains_ =
       add_number(app, "--chains", options_.chains, {1, 256}, "annealing chains side by side, 1 to 256 (8)");
-  add_seed(app, options_.seed, "of the random numbers (1)");
+  add_seed(app, options_.seed, "of the random numbers");
 }
 
 match::Options MatchOptions::values() const {

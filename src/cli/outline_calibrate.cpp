@@ -46,7 +46,7 @@ class OutlineCalibrateCommand final : public Command {
     app.add_option("--json", json_, "write the parameters")->type_name("FILE")->group("Output");
     add_dust(app, pictures_);
     add_number(app, "--scales", options_.scales, {1, 8}, "scales, 1 to 8 (5)")->group("Search");
-    add_seed(app, options_.seed, "of the random numbers (1)")->group("Search");
+    add_seed(app, options_.seed, "of the random numbers")->group("Search");
   }
 
   ExitCode run(Console& console, Context& context) override {

@@ -47,7 +47,7 @@ class OutlineShatterCommand final : public Command {
     add_number(app, "--noise", options_.noise, {0, 3, "PX"},
                "deviation of the scanned edge, 0 to 3 pixels (0)");
     app.add_flag("--flip", options_.flip, "about half of the pieces lie upside down");
-    add_seed(app, options_.seed, "of the random numbers (1)");
+    add_seed(app, options_.seed, "of the random numbers");
   }
 
   ExitCode run(Console& console, Context& context) override {

@@ -70,7 +70,7 @@ class ShatterCommand final : public Command {
         ->group("Output");
     app.option_defaults()->group("Break (lengths in percent of the diameter)");
     add_number(app, "--pieces", options_.pieces, {2, 10000}, "how many fragments, 2 to 10000 (8)");
-    add_seed(app, options_.seed, "another seed, another break (1)");
+    add_seed(app, options_.seed, "another seed, another break");
     app.add_flag("--cracks", options_.cracks, "bent cracks, one after another, that end at older ones");
     add_number(app, "--roughness", options_.roughness, {0, 4},
                "of the breaks: 0 plane, 1 stone, up to 4 (1)");

@@ -438,6 +438,12 @@ TEST_F(Batch, FullDiskIsToldAndNothingDoneIsLost) {
   EXPECT_EQ(content(run_), reference_);
 }
 
+TEST_F(Batch, LargestSeedIsKeptAsItIs) {
+  ASSERT_EQ(run({"batch", scans(), "--out", run_, "--seed", "9223372036854775807"}).exit_code, 0);
+  EXPECT_EQ(SQLite::Database(run_ + "/run.sqlite").execAndGet("SELECT seed FROM run").getString(),
+            "9223372036854775807");
+}
+
 TEST_F(Batch, WrongUseIsToldBeforeAnythingIsWritten) {
   for (const char* shard : {"0/8", "9/8", "1", "1/", "/8", "1/8x", "-1/8"}) {
     const std::vector<std::string> words = {"batch", scans(), "--out", run_, std::string("--shard=") + shard};
