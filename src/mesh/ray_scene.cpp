@@ -24,7 +24,8 @@ RayScene::RayScene(const Mesh& mesh) : impl_(std::make_unique<Impl>()) {
   impl_->mesh = &mesh;
   impl_->device = rtcNewDevice(nullptr);
   if (impl_->device == nullptr)
-    throw BackendError("Embree", "no device could be made", "check the libembree3 package");
+    throw BackendError("Embree", "no device could be made",
+                       "give it more memory (ulimit -v), or check the libembree3 package");
   impl_->scene = rtcNewScene(impl_->device);
   rtcSetSceneFlags(impl_->scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT));
   RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_TRIANGLE);

@@ -1,6 +1,7 @@
 /// Faulty files and places: one line that names them, exit code 1.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -183,6 +184,20 @@ TEST(BadPlace, OutputsAreTestedBeforeTheScansAreRead) {
   expect_failure(run({"facets", "a.ply", "--json", folder / ""}), folder / "");
   expect_failure(run({"info", "--json", inside}), inside);
 }
+
+#ifndef __SANITIZE_ADDRESS__  // which needs terabytes of addresses
+TEST(BadPlace, TooLittleMemoryIsToldAsThat) {
+  const TemporaryFolder folder;
+  write_file(folder / "a.ply", kTetrahedron);
+  const std::string command =
+      "bash -c 'ulimit -v 300000; exec \"$0\" facets \"$1\" --threads 1' " REJOIN_PROGRAM " " +
+      (folder / "a.ply") + " 2> " + (folder / "err");
+  EXPECT_NE(std::system(command.c_str()), 0);
+  const std::string err = read_file(folder / "err");
+  EXPECT_TRUE(is_one_line(err)) << err;
+  EXPECT_NE(err.find("memory"), std::string::npos) << err;
+}
+#endif
 
 TEST(BadPlace, BackendThatIsMissingCannotBeMeasured) {
   expect_failure(run({"bench", "--backend", "osmesa"}, {"REJOIN_OSMESA_LIBRARY=no/such/library.so"}),
