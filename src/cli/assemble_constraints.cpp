@@ -132,7 +132,7 @@ class Reader {
       const std::optional<Rigid> pose =
           rows.is_string() ? read_pose(std::filesystem::path(path_).parent_path() / rows.get<std::string>())
                            : rigid_from_json(rows);
-      if (!pose) fail(fmt::format("{} {}", place, kNoRigid));
+      if (!pose) fail(fmt::format("{} {}", place, why_no_rigid(rows)));
       asked_.named.poses.emplace_back(name, *pose);
       if (number && !is_given(result, *number, name, *pose)) result.emplace_back(*number, *pose);
     }

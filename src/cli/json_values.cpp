@@ -17,6 +17,8 @@ using nlohmann::ordered_json;
 namespace {
 
 constexpr double kLargestShift = 1e13;  // of scans, whose coordinates end at 1e12, one onto another
+/// Rounding to three decimals leaves 2 sqrt(3) 0.0005 and a little.
+constexpr double kLargestRounding = 0.002;
 
 bool is_matrix(const ordered_json& rows) {
   if (!rows.is_array() || rows.size() != 4) return false;
@@ -27,6 +29,31 @@ bool is_matrix(const ordered_json& rows) {
     }
   }
   return rows[3] == ordered_json({0.0, 0.0, 0.0, 1.0});
+}
+
+/// How far the products of columns are from those of unit vectors at right angles, at most.
+double off_rotation(const glm::dmat3& matrix) {
+  const glm::dmat3 difference = glm::transpose(matrix) * matrix - glm::dmat3(1.0);
+  double most = 0;
+  for (int column = 0; column < 3; ++column) {
+    for (int row = 0; row < 3; ++row) most = std::max(most, std::abs(difference[column][row]));
+  }
+  return most;
+}
+
+/// The matrix as it stands.  \pre is_matrix()
+Rigid unchecked(const ordered_json& rows) {
+  Rigid pose;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) pose.rotation[column][row] = rows[row][column].get<double>();
+    pose.translation[row] = rows[row][3].get<double>();
+  }
+  return pose;
+}
+
+bool is_far(const Rigid& pose) {
+  const glm::dvec3 shift = glm::abs(pose.translation);
+  return std::max({shift.x, shift.y, shift.z}) > kLargestShift;
 }
 
 /// Gram-Schmidt.
@@ -54,15 +81,22 @@ ordered_json to_json(const Rigid& pose) {
 
 std::optional<Rigid> rigid_from_json(const ordered_json& rows) {
   if (!is_matrix(rows)) return std::nullopt;
-  Rigid pose;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) pose.rotation[column][row] = rows[row][column].get<double>();
-    pose.translation[row] = rows[row][3].get<double>();
-    if (std::abs(pose.translation[row]) > kLargestShift) return std::nullopt;
-  }
-  if (!is_rotation(pose.rotation)) return std::nullopt;
+  Rigid pose = unchecked(rows);
+  const bool turns = off_rotation(pose.rotation) <= kLargestRounding && glm::determinant(pose.rotation) > 0;
+  if (!turns || is_far(pose)) return std::nullopt;
   pose.rotation = orthonormal(pose.rotation);
   return pose;
+}
+
+std::string why_no_rigid(const ordered_json& rows) {
+  if (!is_matrix(rows)) return "is no 4 x 4 matrix of numbers whose last row is 0, 0, 0, 1";
+  const Rigid pose = unchecked(rows);
+  if (is_far(pose)) return "has no shift of at most 1e13";
+  const double off = off_rotation(pose.rotation);
+  if (off <= kLargestRounding) return "is no rotation, as it mirrors";
+  return fmt::format(
+      "is no rotation: products of its columns are {:.2g} off, and {} is what rounding may leave", off,
+      kLargestRounding);
 }
 
 std::string read_json_text(const std::string& path, const std::string& mend) {

@@ -14,12 +14,12 @@ nlohmann::ordered_json to_json(const glm::dvec3& v);
 /// 4 x 4, row major.
 nlohmann::ordered_json to_json(const Rigid& pose);
 
-/// The inverse of to_json(Rigid); nullopt if it is no 4 x 4 matrix of numbers or no proper rigid motion (to 1e-4, as
-/// matrices come with few digits; the rotation is then made orthonormal), or shifts along an axis by more than 1e13.
+/// The inverse of to_json(Rigid); nullopt if it is no 4 x 4 matrix of numbers, no proper rigid motion (products of columns to 0.002, as
+/// matrices come with three decimals; the rotation is then made orthonormal), or shifts along an axis by more than 1e13.
 std::optional<Rigid> rigid_from_json(const nlohmann::ordered_json& rows);
 
-/// What to tell of a value that rigid_from_json() refuses.
-inline constexpr const char* kNoRigid = "is no 4 x 4 matrix of a rotation and a shift of at most 1e13";
+/// What to tell of a value that rigid_from_json() refuses, behind its name: "is no ..."; how far it is from a rotation where that is why.
+std::string why_no_rigid(const nlohmann::ordered_json& rows);
 
 /// The text of a JSON file; whether it is JSON is for the parser to say.
 /// \param mend  what to do about one that is nested without end

@@ -52,11 +52,12 @@ class Reader {
                                       : "assemble the scans as they are, or leave --layout out");
   }
 
-  void lay(const std::string& name, const std::optional<Rigid>& pose, const char* mend) {
+  void lay(const std::string& name, const ordered_json& rows, const char* mend) {
     if (std::find(names_.begin(), names_.end(), name) == names_.end())
       fail(fmt::format("lays \"{}\", which is no scan of the folder", name),
            "take it out, or hide it in MeshLab");
-    if (!pose) fail(fmt::format("the matrix of \"{}\" {}", name, kNoRigid), mend);
+    const std::optional<Rigid> pose = rigid_from_json(rows);
+    if (!pose) fail(fmt::format("the matrix of \"{}\" {}", name, why_no_rigid(rows)), mend);
     if (!laid_.layout.emplace(name, *pose).second)
       fail(fmt::format("lays \"{}\" twice", name), "leave one of the two");
   }
@@ -88,9 +89,9 @@ class Reader {
   }
 
   /// A layer without a matrix was not moved.
-  static std::optional<Rigid> pose_of(const pugi::xml_node& layer) {
+  static ordered_json pose_of(const pugi::xml_node& layer) {
     const pugi::xml_node matrix = layer.child("MLMatrix44");
-    return matrix ? rigid_from_json(rows_of_numbers(matrix.text().as_string())) : Rigid{};
+    return matrix ? rows_of_numbers(matrix.text().as_string()) : to_json(Rigid{});
   }
 
   void read_json() {
@@ -122,7 +123,7 @@ class Reader {
             name));
         continue;
       }
-      lay(name, rigid_from_json(fragment["pose"]), "make it again with rejoin assemble");
+      lay(name, fragment["pose"], "make it again with rejoin assemble");
     }
   }
 

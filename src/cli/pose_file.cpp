@@ -70,9 +70,10 @@ std::pair<Rigid, ordered_json> pose_and_json(const std::string& path) {
   if (json.is_discarded()) json = rows_of_numbers(text);
   if (json.is_discarded()) throw InputError(path, "is neither JSON nor a matrix of 4 x 4 numbers", kMend);
   if (json.is_object() && json.value("schema", ordered_json()) == "rejoin.assembly/1") refuse_assembly(path);
-  const ordered_json& rows = json.is_object() && json.contains("pose") ? json["pose"] : json;
+  const bool named = json.is_object() && json.contains("pose");
+  const ordered_json& rows = named ? json["pose"] : json;
   const std::optional<Rigid> pose = rigid_from_json(rows);
-  if (!pose) throw InputError(path, fmt::format("\"pose\" {}", kNoRigid), kMend);
+  if (!pose) throw InputError(path, (named ? "\"pose\" " : "") + why_no_rigid(rows), kMend);
   return {*pose, std::move(json)};
 }
 

@@ -123,7 +123,7 @@ class AssemblyReader {
     const int group = value.value("group", -1);
     if (group < 0 || !value.contains("pose") || value["pose"].is_null()) return;
     fragment.pose = rigid_from_json(value["pose"]);
-    if (!fragment.pose) refuse(path_, fmt::format("pose of \"{}\" {}", name, kNoRigid));
+    if (!fragment.pose) refuse(path_, fmt::format("pose of \"{}\" {}", name, why_no_rigid(value["pose"])));
     fragment.group = group;
     if (value.contains("confidence") && value["confidence"].is_number())
       fragment.confidence = value["confidence"].get<double>();
@@ -194,7 +194,8 @@ class AssemblyReader {
       posed += (posed.empty() ? "" : ", ") + name;
       const auto number = number_of(name);
       const std::optional<Rigid> pose = rigid_from_json(value);
-      if (!pose) refuse(path_, fmt::format("pose of \"{}\" in \"constraints\" {}", name, kNoRigid));
+      if (!pose)
+        refuse(path_, fmt::format("pose of \"{}\" in \"constraints\" {}", name, why_no_rigid(value)));
       if (number) report_.constraints.pinned.emplace_back(*number, *pose);
     }
     if (!posed.empty()) report_.parameters.emplace_back("pose given", posed);

@@ -1,10 +1,12 @@
 /// The file of rejoin assemble --constraints, good and hostile.
 #include "cli/assemble_constraints.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "cli/pose_file.hpp"
 #include "core/error.hpp"
+#include "core/random.hpp"
 #include "run_program.hpp"
 
 namespace rejoin::cli::testing {
@@ -58,7 +60,7 @@ TEST(ReadConstraints, TakesAPoseFromTheFileOfAMatrixBesideThem) {
   write_file(folder / "cloudcompare/c.txt", "0 -1 0 5\n1 0 0 6\n0 0 1 7\n");
   expect_refused("c.txt: is neither JSON nor a matrix");
   write_file(folder / "cloudcompare/c.txt", "2 0 0 0\n0 2 0 0\n0 0 2 0\n0 0 0 1\n");
-  expect_refused("is no 4 x 4 matrix");
+  expect_refused("c.txt: is no rotation: products of its columns are 3 off");
   std::filesystem::remove(folder / "cloudcompare/c.txt");
   expect_refused("c.txt: cannot be");
 }
@@ -69,6 +71,25 @@ TEST(ReadPose, MayHaveCommasAndComments) {
   EXPECT_EQ(read_pose(folder / "m.csv")({1, 0, 0}), glm::dvec3(5, 7, 7));
   write_file(folder / "m.csv", "0,5 0 0 1,5\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
   EXPECT_THROW(read_pose(folder / "m.csv"), InputError) << "decimal commas";
+}
+
+TEST(ReadPose, MayHaveThreeDecimals) {
+  const TemporaryFolder folder;
+  Random random(5);
+  for (int trial = 0; trial < 100; ++trial) {
+    const Rigid truth{
+        axis_rotation(glm::normalize(glm::dvec3(random.normal(), random.normal(), 1)), random.uniform(-3, 3)),
+        glm::dvec3(0.0)};
+    std::string text;
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 3; ++column) text += fmt::format("{:.3f} ", truth.rotation[column][row]);
+      text += "7\n";
+    }
+    write_file(folder / "m.txt", text + "0 0 0 1\n");
+    const Rigid read = read_pose(folder / "m.txt");
+    EXPECT_LT(angle_between(read, truth), 0.002) << text;  // entries are off by up to 0.0005
+    EXPECT_TRUE(is_rotation(read.rotation)) << text;
+  }
 }
 
 TEST(ReadPose, OfAnAssemblyTellsWhatIsNeeded) {
@@ -195,13 +216,13 @@ INSTANTIATE_TEST_SUITE_P(
                 "gives \"a.ply\" twice"},
         Hostile{"PosesAreAList", R"({"poses": []})", "no object of names"},
         Hostile{"PoseOfThreeRows", R"({"poses": {"a.ply": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]}})",
-                "no 4 x 4"},
+                "\"poses\".\"a.ply\" is no 4 x 4 matrix"},
         Hostile{"MirroringPose",
                 R"({"poses": {"a.ply": [[-1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}})",
-                "no 4 x 4"},
+                "\"poses\".\"a.ply\" is no rotation, as it mirrors"},
         Hostile{"PoseThatScales",
-                R"({"poses": {"a.ply": [[2, 0, 0, 0], [0, 2, 0, 0], [0, 0, 2, 0], [0, 0, 0, 1]]}})",
-                "no 4 x 4"},
+                R"({"poses": {"a.ply": [[1.01, 0, 0, 0], [0, 1.01, 0, 0], [0, 0, 1.01, 0], [0, 0, 0, 1]]}})",
+                "are 0.02 off"},
         Hostile{"ShiftThatNoScanNeeds",
                 R"({"poses": {"a.ply": [[1, 0, 0, 0], [0, 1, 0, -1e20], [0, 0, 1, 0], [0, 0, 0, 1]]}})",
                 "shift of at most 1e13"},
