@@ -46,29 +46,32 @@ std::string painted_name(const std::string& scan) {
   return (mesh::has_scan_name(name) ? name.stem() : name).string() + kEnd + ".ply";
 }
 
-Painted find_painted(const fs::path& folder, const std::vector<std::string>& scans) {
-  std::map<std::string, std::string> scan_of;
-  for (const std::string& name : painted_files(folder)) scan_of[name] = "";
-  if (scan_of.empty()) throw InputError(folder.string(), "holds no painted surface", kNaming);
-  Painted painted;
+FoundPainted find_painted(const fs::path& folder, const std::vector<std::string>& scans) {
+  std::map<std::string, std::vector<std::string>> scans_of;
+  for (const std::string& name : painted_files(folder)) scans_of[name] = {};
+  if (scans_of.empty()) throw InputError(folder.string(), "holds no painted surface", kNaming);
+  FoundPainted found;
   for (const std::string& scan : scans) {
-    const auto found = scan_of.find(painted_name(scan));
-    if (found == scan_of.end()) continue;
-    const fs::path file = folder / found->first;
-    if (!found->second.empty()) {
-      throw InputError(file.string(), fmt::format("belongs to {} and to {}", found->second, scan),
-                       "give one of the two scans another name");
+    const auto file = scans_of.find(painted_name(scan));
+    if (file == scans_of.end()) continue;
+    file->second.push_back(scan);
+    found.painted[scan] = folder / file->first;
+  }
+  if (found.painted.empty())
+    throw InputError(folder.string(), "holds no painted surface of a scan of the folder", kNaming);
+  for (const auto& [name, of] : scans_of) {
+    const std::string file = (folder / name).string();
+    if (of.size() > 1) {
+      found.warnings.push_back(
+          fmt::format("{}: is used for {}; where it does not lie on one of them, give that scan another name",
+                      file, fmt::join(of, " and ")));
+    } else if (of.empty() && extension_of(name) == ".ply") {
+      found.warnings.push_back(fmt::format("{}: left out, belongs to no scan of the folder", file));
+    } else if (of.empty()) {
+      found.warnings.push_back(fmt::format("{}: left out, is no PLY", file));
     }
-    found->second = scan;
-    painted[scan] = file;
   }
-  for (const auto& [name, scan] : scan_of) {
-    if (!scan.empty()) continue;
-    const bool ply = extension_of(name) == ".ply";
-    throw InputError((folder / name).string(), ply ? "belongs to no scan of the folder" : "is no PLY",
-                     ply ? kNaming : "save it as one");
-  }
-  return painted;
+  return found;
 }
 
 std::string keep_painted(const fs::path& file, const fs::path& cache) {

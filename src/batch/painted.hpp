@@ -17,11 +17,17 @@ using Painted = std::map<std::string, std::filesystem::path>;
 /// The painted surface of a scan in its folder: "a-facets.ply" of a.obj.
 std::string painted_name(const std::string& scan);
 
-/// Looks for painted_name() of the scans in a folder; other files are left alone.
+struct FoundPainted {
+  Painted painted;
+  std::vector<std::string> warnings;  ///< of files that belong to no scan, or to several, or are no PLY
+};
+
+/// Looks for painted_name() of the scans in a folder; other files are left alone.  One that belongs to several scans is of each: where it
+/// does not lie on the scan, use_kept_paint() refuses it.
 /// \param scans  names
 /// \throws IoError     the folder cannot be read
-/// \throws InputError  it holds none, or one that belongs to no scan or to two, or is no PLY
-Painted find_painted(const std::filesystem::path& folder, const std::vector<std::string>& scans);
+/// \throws InputError  it holds none of the scans
+FoundPainted find_painted(const std::filesystem::path& folder, const std::vector<std::string>& scans);
 
 /// Keeps a copy under `cache`, named after its content, for who looks at the run later.
 /// \return hash of the content, for store::Fragment::facets

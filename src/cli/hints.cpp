@@ -1,7 +1,7 @@
 #include "cli/hints.hpp"
 
-#include <filesystem>
-#include <system_error>
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "batch/inputs.hpp"
@@ -26,7 +26,9 @@ void Hints::read_into(batch::Options& options, const std::string& scans) const {
     options.warnings = std::move(laid.warnings);
   }
   if (!painted_) return;
-  options.painted = batch::find_painted(*painted_, batch::names_of(batch::find_scans(scans)));
+  batch::FoundPainted found = batch::find_painted(*painted_, batch::names_of(batch::find_scans(scans)));
+  options.painted = std::move(found.painted);
+  std::ranges::move(found.warnings, std::back_inserter(options.warnings));
 }
 
 }  // namespace rejoin::cli

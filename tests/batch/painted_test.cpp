@@ -37,19 +37,28 @@ class FindPainted : public ::testing::Test {
 TEST_F(FindPainted, KnowsScansByTheirNamesAndLeavesOtherFilesAlone) {
   for (const char* name : {"a-facets.ply", "b.c-facets.ply", ".d-facets.ply", "d.ply", "project.mlp"})
     make(name);
-  const Painted painted = find_painted(folder_, {"a.obj", "b.c.ply", "d.ply"});
+  const auto [painted, warnings] = find_painted(folder_, {"a.obj", "b.c.ply", "d.ply"});
+  EXPECT_TRUE(warnings.empty());
   ASSERT_EQ(painted.size(), 2U);
   EXPECT_EQ(painted.at("a.obj"), folder_ / "a-facets.ply");
   EXPECT_EQ(painted.at("b.c.ply"), folder_ / "b.c-facets.ply");
 }
 
-TEST_F(FindPainted, RefusesWhatWouldBeLeftOutInSilence) {
+TEST_F(FindPainted, TellsWhatItLeavesOutAndWhatItUsesTwice) {
+  for (const char* name : {"a-facets.ply", "b-facets.obj", "gone-facets.ply"}) make(name);
+  const auto [painted, warnings] = find_painted(folder_, {"a.obj", "a.ply", "b.ply"});
+  EXPECT_EQ(painted, (Painted{{"a.obj", folder_ / "a-facets.ply"}, {"a.ply", folder_ / "a-facets.ply"}}));
+  ASSERT_EQ(warnings.size(), 3U);
+  EXPECT_NE(warnings[0].find("a-facets.ply: is used for a.obj and a.ply"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[1].find("b-facets.obj: left out, is no PLY"), std::string::npos) << warnings[1];
+  EXPECT_NE(warnings[2].find("gone-facets.ply: left out, belongs to no scan"), std::string::npos)
+      << warnings[2];
+}
+
+TEST_F(FindPainted, RefusesAFolderWithoutAny) {
   expect_refused("holds no painted surface", {"a.ply", "b.ply"});
   make("a-facets.ply");
-  expect_refused("a-facets.ply: belongs to no scan", {"b.ply", "c.ply"});
-  expect_refused("belongs to a.obj and to a.ply", {"a.obj", "a.ply"});
-  make("b-facets.obj");
-  expect_refused("b-facets.obj: is no PLY", {"a.ply", "b.ply"});
+  expect_refused("holds no painted surface of a scan", {"b.ply", "c.ply"});
   EXPECT_THROW(find_painted(folder_ / "nowhere", {"a.ply"}), IoError);
 }
 

@@ -135,6 +135,28 @@ TEST_F(BatchFacets, PaintThatLiesElsewhereIsTold) {
   EXPECT_NE(batch().err.find("a8-facets.ply: does not lie on a8.ply"), std::string::npos);
 }
 
+TEST_F(BatchFacets, PaintWithoutAScanIsToldAndTheRestGoesOn) {
+  paint(red_, grey_);
+  fs::copy(painted_ + "/b7-facets.ply", painted_ + "/gone-facets.ply");
+  const Finished finished = batch();
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_NE(finished.err.find("gone-facets.ply: left out, belongs to no scan"), std::string::npos)
+      << finished.err;
+  EXPECT_TRUE(has_the_join(run_));
+}
+
+TEST_F(BatchFacets, PaintOfTwoScansFailsWhereItDoesNotLie) {
+  paint(red_, grey_);
+  fs::copy(scans(), folder_ / "scans");
+  mesh::save(folder_ / "scans/b7.obj", match::testing::planted_pair(9, kCells).a);
+  const Finished finished = run({"batch", folder_ / "scans", "--out", run_, "--facets", painted_});
+  EXPECT_EQ(finished.exit_code, 1) << finished.err;
+  EXPECT_NE(finished.err.find("b7-facets.ply: is used for b7.obj and b7.ply"), std::string::npos)
+      << finished.err;
+  EXPECT_NE(finished.err.find("does not lie on b7.obj"), std::string::npos) << finished.err;
+  EXPECT_TRUE(has_the_join(run_));
+}
+
 TEST_F(BatchFacets, AFolderIsAssembledByThemAndARunIsRefused) {
   paint(grey_, red_);
   ASSERT_EQ(run({"assemble", scans(), "--out", folder_ / "out", "--facets", painted_}).exit_code, 0);
