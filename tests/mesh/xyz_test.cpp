@@ -75,6 +75,26 @@ TEST(Xyz, ReadsTheCountOfAPtsFileAndItsColoursBehindTheIntensity) {
   EXPECT_NE(loaded.warnings[0].find("no normals"), std::string::npos) << loaded.warnings[0];
 }
 
+TEST(Xyz, TakesAFirstLineForNamesOnlyWhereItHasWords) {
+  const TemporaryFolder folder;
+  std::string points;
+  for (const glm::vec3& p : test::sphere_cloud(1, 0.1F, 6).vertices)
+    points += fmt::format("{} {} {}\n", p.x, p.y, p.z);
+  const std::size_t count = load(folder.write("a.xyz", points)).mesh.vertices.size();
+  for (const char* names :
+       {"# 1 2 3", "// 1 2 3", "//X Y Z", "x y z", "\"X\" \"Y\" \"Z\"", "[m] [m] [m]", "东 北 高"})
+    EXPECT_EQ(load(folder.write("a.xyz", fmt::format("{}\n{}", names, points))).mesh.vertices.size(), count)
+        << names;
+  for (const char* garbled : {"-2,71;1,2;3,4", "0.1o 0.2 0.3", "--1 0.2 0.3", "1..5 2 3", ", 1 2 3"}) {
+    try {
+      load(folder.write("a.xyz", fmt::format("{}\n{}", garbled, points)));
+      ADD_FAILURE() << garbled;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("line 1"), std::string::npos) << error.what();
+    }
+  }
+}
+
 /// The points of a sphere, without the last line end.
 std::string rows(const char* format) {
   std::string text;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -90,13 +91,30 @@ bool may_be_cut(const Source& source) {
   return fewest && *last < *fewest;
 }
 
+/// Whether the first line names the columns, as "//X Y Z" or "x y z", and is no garbled point: some word begins with a letter, be it behind
+/// a quote or a bracket, and is no number such as nan.
+bool is_heading(std::string_view line) {
+  if (line.starts_with("//")) return true;
+  const auto is_letter = [](char c) {
+    const auto code = static_cast<unsigned char>(c);
+    return std::isalpha(code) != 0 || code >= 0x80;
+  };
+  const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
+  while (!line.empty()) {
+    const std::string_view word = line.substr(0, line.find_first_of(" \t"));
+    const auto first = std::ranges::find_if(word, [&](char c) { return is_letter(c) || is_digit(c); });
+    if (first != word.end() && is_letter(*first) && !to_number(word)) return true;
+    line.remove_prefix(std::min(line.size(), word.size() + 1));
+  }
+  return false;
+}
+
 Rows read_rows(const Source& source) {
   TextLines lines(source);
   Rows rows;
   Promise promised;
   for (bool first = true; lines.next_line(); first = false) {
-    // Names of the columns, as "//X Y Z" or "x y z".
-    if (first && !to_number(lines.peek_word())) continue;
+    if (first && !to_number(lines.peek_word()) && is_heading(lines.rest())) continue;
     read_row(lines, rows, promised);
   }
   if (promised && rows.size() < *promised) {
