@@ -9,6 +9,7 @@
 
 #include "cli/json_values.hpp"
 #include "core/error.hpp"
+#include "core/utf8.hpp"
 
 namespace rejoin::cli {
 namespace {
@@ -67,7 +68,7 @@ bool is_of_swapped(const ordered_json& json, const std::string& path_a, const st
 std::pair<Rigid, ordered_json> pose_and_json(const std::string& path) {
   const std::string text = read_json_text(path, kMend);
   ordered_json json = ordered_json::parse(text, nullptr, false);
-  if (json.is_discarded()) json = rows_of_numbers(text);
+  if (json.is_discarded()) json = rows_of_numbers(std::string(without_byte_order_mark(text)));
   if (json.is_discarded()) throw InputError(path, "is neither JSON nor a matrix of 4 x 4 numbers", kMend);
   if (json.is_object() && json.value("schema", ordered_json()) == "rejoin.assembly/1") refuse_assembly(path);
   const bool named = json.is_object() && json.contains("pose");

@@ -12,6 +12,9 @@ std::size_t utf8_length(std::string_view text);
 
 bool is_utf8(std::string_view text);
 
+/// The text behind its byte order mark, with which spreadsheets and editors begin files; all of it where there is none.
+std::string_view without_byte_order_mark(std::string_view text);
+
 /// The text with U+FFFD in place of every byte that belongs to no character.
 std::string valid_utf8(std::string_view text);
 

@@ -73,6 +73,15 @@ TEST(ReadPose, MayHaveCommasAndComments) {
   EXPECT_THROW(read_pose(folder / "m.csv"), InputError) << "decimal commas";
 }
 
+TEST(ReadPose, MayBeginWithAByteOrderMark) {
+  const TemporaryFolder folder;
+  write_file(folder / "m.txt", "\xEF\xBB\xBF\x30 -1 0 5\n1 0 0 6\n0 0 1 7\n0 0 0 1\n");
+  EXPECT_EQ(read_pose(folder / "m.txt")({1, 0, 0}), glm::dvec3(5, 7, 7));
+  write_file(folder / "m.json",
+             "\xEF\xBB\xBF{\"pose\": [[0, -1, 0, 5], [1, 0, 0, 6], [0, 0, 1, 7], [0, 0, 0, 1]]}");
+  EXPECT_EQ(read_pose(folder / "m.json")({1, 0, 0}), glm::dvec3(5, 7, 7));
+}
+
 TEST(ReadPose, MayHaveThreeDecimals) {
   const TemporaryFolder folder;
   Random random(5);

@@ -12,6 +12,14 @@ TEST(Utf8, CharactersOfAllLengthsAreValid) {
   EXPECT_EQ(utf8_length("\U0001F3FA b"), 4U);
 }
 
+TEST(Utf8, AByteOrderMarkIsNoText) {
+  EXPECT_EQ(without_byte_order_mark("\xEF\xBB\xBF"
+                                    "1 2"),
+            "1 2");
+  EXPECT_EQ(without_byte_order_mark("1 2"), "1 2");
+  EXPECT_EQ(without_byte_order_mark("\xEF\xBB"), "\xEF\xBB");
+}
+
 TEST(Utf8, WhatNoParserTakesIsInvalid) {
   EXPECT_FALSE(is_utf8("Gef\xe4\xdf"));  // Latin-1
   EXPECT_FALSE(is_utf8("a\xc3"));        // cut within a character

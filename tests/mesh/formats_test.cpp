@@ -212,6 +212,14 @@ TEST(Ply, ReadsTextWithOtherPropertiesPolygonsAndFacesFirst) {
   for (const glm::vec3& normal : face_normals(mesh)) EXPECT_GT(normal.z, 0.99F);
 }
 
+TEST(Ply, ReadsTextBehindAByteOrderMark) {
+  const TemporaryFolder folder;
+  const std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  EXPECT_EQ(load(folder.write("a.ply", "\xEF\xBB\xBF" + text)).mesh.vertices.size(), 3U);
+}
+
 TEST(Ply, ReadsBigEndian) {
   const TemporaryFolder folder;
   const auto reversed = [](std::string bytes) {

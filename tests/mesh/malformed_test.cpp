@@ -134,6 +134,9 @@ TEST_F(Malformed, PlyHeaders) {
              "element face 1\nproperty int a\nend_header\n0 0 0\n1\n",
          Kind::Input, "no list of vertex indices");
   expect("h.ply", ply("ascii", 0, 0), Kind::Input, "has no vertices");
+  std::string mac = ply("ascii", 3, 1) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  std::ranges::replace(mac, '\n', '\r');
+  expect("i.ply", mac, Kind::Input, "lines of its PLY header end with CR alone");
 }
 
 TEST_F(Malformed, NumbersThatAreNone) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/utf8.hpp"
 
 namespace rejoin::mesh::detail {
 namespace {
@@ -39,7 +40,8 @@ std::optional<PlyType> type_of(const std::string& name) {
 /// Reads the header line by line and knows the line for its errors.
 class HeaderReader {
  public:
-  explicit HeaderReader(const Source& source) : source_(source) {}
+  explicit HeaderReader(const Source& source)
+      : source_(source), position_(source.bytes.size() - without_byte_order_mark(source.bytes).size()) {}
 
   PlyHeader read() {
     bool format_seen = false;
@@ -70,10 +72,18 @@ class HeaderReader {
                      "export the scan again");
   }
 
-  std::string next_line() {
-    if (line_ == 0 && source_.bytes.rfind("ply", 0) != 0)
+  void check_start() const {
+    const std::string_view text = without_byte_order_mark(source_.bytes);
+    if (!text.starts_with("ply"))
       throw InputError(source_.name, "is not a PLY file (does not start with \"ply\")",
                        "check the file's format");
+    if (text.starts_with("ply\r") && !text.starts_with("ply\r\n"))
+      throw InputError(source_.name, "the lines of its PLY header end with CR alone, as on old Macs",
+                       "export the scan again");
+  }
+
+  std::string next_line() {
+    if (line_ == 0) check_start();
     const std::size_t end = source_.bytes.find('\n', position_);
     if (end == std::string::npos) fail("the file ends before end_header");
     std::string line = source_.bytes.substr(position_, end - position_);

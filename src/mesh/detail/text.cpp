@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/utf8.hpp"
 
 namespace rejoin::mesh::detail {
 namespace {
@@ -81,9 +82,7 @@ std::optional<long long> to_integer(std::string_view word) {
   return parse<long long>(word);
 }
 
-TextLines::TextLines(const Source& source) : source_(source), rest_(source.bytes) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
+TextLines::TextLines(const Source& source) : source_(source), rest_(without_byte_order_mark(source.bytes)) {
   if (rest_.starts_with("\xFF\xFE") || rest_.starts_with("\xFE\xFF"))
     throw InputError(source.name, "is text in UTF-16", "save it as UTF-8");
 }

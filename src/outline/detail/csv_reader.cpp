@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/utf8.hpp"
 #include "outline/detail/readers.hpp"
 #include "outline/polygon.hpp"
 
@@ -20,7 +21,6 @@ namespace {
 
 constexpr std::string_view kSeparators = ",; \t\r";
 constexpr std::string_view kBlanks = " \t";
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // spreadsheets begin files with it
 constexpr std::array<std::string_view, 5> kNamesOfX = {"x", "lon", "long", "longitude", "easting"};
 constexpr std::array<std::string_view, 4> kNamesOfY = {"y", "lat", "latitude", "northing"};
 constexpr const char* kMend = "write \"x,y\" in each line";
@@ -308,10 +308,8 @@ std::optional<std::string> doubt_degrees(const std::string& path, const std::vec
 
 std::vector<Rings> read_csv(const std::string& path, const std::string& file,
                             std::vector<std::string>& notes) {
-  std::string_view text = file;
-  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   Reader reader(path, notes);
-  reader.read(text);
+  reader.read(without_byte_order_mark(file));
   std::vector<Rings> outlines;
   for (std::size_t i = 0; i < reader.lines.size(); ++i) {
     const std::string place = reader.lines.size() > 1 ? fmt::format("outline {}", i + 1) : "";
