@@ -60,7 +60,7 @@ class AssembleCommand final : public Command {
         ->type_name("FILE")
         ->group("Input");
     hints_.define(app);
-    app.add_option("--json", json_, "poses and joins here too, not only in the run")
+    app.add_option("--json", json_, "poses and joins here too (-: to stdout)")
         ->type_name("FILE")
         ->group("Output");
     app.add_option("--out", out_, "models, transforms, a picture; for scans DIR/run too")

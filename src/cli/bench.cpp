@@ -9,6 +9,7 @@
 #include "cli/command.hpp"
 #include "cli/json_values.hpp"
 #include "core/files.hpp"
+#include "core/version.hpp"
 #include "zbuffer/benchmark.hpp"
 
 namespace rejoin::cli {
@@ -73,8 +74,11 @@ std::string to_json(const Rows& rows, const Ratios& ratios) {
                         {"faces", ratio.faces},
                         {"ratio", ratio.ratio}});
   }
-  const nlohmann::ordered_json json = {
-      {"schema", "rejoin.bench/1"}, {"machine", machine()}, {"rows", list}, {"ratios", compared}};
+  const nlohmann::ordered_json json = {{"schema", "rejoin.bench/1"},
+                                       {"machine", machine()},
+                                       {"rows", list},
+                                       {"ratios", compared},
+                                       {"version", kVersion}};
   return text_of(json);
 }
 
@@ -87,7 +91,9 @@ void require_available(zbuffer::Backend backend) {
 class BenchCommand final : public Command {
  public:
   void define(CLI::App& app) override {
-    app.add_option("--json", json_, "write the table as JSON")->type_name("FILE")->group("Output");
+    app.add_option("--json", json_, "write the table as JSON (-: to stdout)")
+        ->type_name("FILE")
+        ->group("Output");
     app.option_defaults()->group("Measurement");
     add_choice(app, "--backend", backend_, backend_choices(), "only this one");
     add_numbers(app, "--resolution", options_.resolutions, {8, 2048, "N,N,..."},

@@ -34,7 +34,7 @@ class CompareCommand final : public Command {
         ->expected(1)
         ->take_all()
         ->group("Input");
-    app.add_option("--json", json_, "write all figures")->type_name("FILE")->group("Output");
+    app.add_option("--json", json_, "write all figures (-: to stdout)")->type_name("FILE")->group("Output");
     app.add_option("--out", out_, "write compare.png and compare.json")->type_name("DIR")->group("Output");
     app.option_defaults()->group("Measurement");
     add_number(app, "--resolution", options_.resolution, {8, 2048},

@@ -9,6 +9,7 @@
 #include "cli/json_values.hpp"
 #include "cli/outputs.hpp"
 #include "core/files.hpp"
+#include "core/version.hpp"
 #include "mesh/facets.hpp"
 #include "mesh/save.hpp"
 #include "report/facet_picture.hpp"
@@ -74,7 +75,8 @@ std::string facets_json(const match::Fragment& fragment) {
                              {"noise", fragment.noise},
                              {"wall_thickness", fragment.facets.wall_thickness},
                              {"facets", list},
-                             {"warnings", fragment.warnings}};
+                             {"warnings", fragment.warnings},
+                             {"version", kVersion}};
   return text_of(json);
 }
 
@@ -93,7 +95,9 @@ class FacetsCommand final : public Command {
     app.add_option("--png", png_, "write a picture of it from six sides, facets numbered")
         ->type_name("FILE")
         ->group("Output");
-    app.add_option("--json", json_, "write the table as JSON")->type_name("FILE")->group("Output");
+    app.add_option("--json", json_, "write the table as JSON (-: to stdout)")
+        ->type_name("FILE")
+        ->group("Output");
   }
 
   ExitCode run(Console& console, Context& context) override {

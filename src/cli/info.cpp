@@ -18,7 +18,9 @@ namespace {
 class InfoCommand final : public Command {
  public:
   void define(CLI::App& app) override {
-    app.add_option("--json", json_, "write the same as JSON")->type_name("FILE")->group("Output");
+    app.add_option("--json", json_, "write the same as JSON (-: to stdout)")
+        ->type_name("FILE")
+        ->group("Output");
   }
 
   ExitCode run(Console& console, Context& /*context*/) override {

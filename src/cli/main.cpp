@@ -85,7 +85,7 @@ void add_common(CLI::App& root, Common& common) {
   root.set_help_flag("-h,--help", "show this, or a command's own help")->group("Everywhere");
   root.set_version_flag("--version", std::string("rejoin ") + kVersion, "show the version")
       ->group("Everywhere");
-  root.add_option("--threads", common.threads, "threads to use (default: all cores)")
+  root.add_option("--threads", common.threads, "threads to use, 0 to 1024 (0: all cores)")
       ->type_name("N")
       ->check(whole_in_range(0, 1024))
       ->group("Everywhere");

@@ -31,7 +31,7 @@ void MatchOptions::define(CLI::App& app) {
   add_directions(app, "--direction-a", directions_a_);
   add_directions(app, "--direction-b", directions_b_);
   tolerance_ = add_number(app, "--tolerance", options_.tolerance_deg, {0, 45, "DEG"},
-                          "how far directions may be off (10)");
+                          "how far directions may be off, 0 to 45 (10)");
   app.add_option("--material-a", material_a_, "axis of the material, such as its layers")->type_name("x,y,z");
   app.add_option("--material-b", material_b_, "the same of B")->type_name("x,y,z");
   add_facets(app, "--facets-a", options_.facets_a);

@@ -124,7 +124,9 @@ class OutlineAssembleCommand final : public Command {
     app.add_option("DIR", folder_, "folder of pieces: png, jpg, tif, csv, svg or geojson")
         ->required()
         ->group("Input");
-    app.add_option("--json", json_, "write poses and joins")->type_name("FILE")->group("Output");
+    app.add_option("--json", json_, "write poses and joins (-: to stdout)")
+        ->type_name("FILE")
+        ->group("Output");
     app.add_option("--out", out_, "write pictures of the objects, their joins and the similarity matrix")
         ->type_name("DIR")
         ->group("Output");

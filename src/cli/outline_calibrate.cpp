@@ -43,7 +43,9 @@ class OutlineCalibrateCommand final : public Command {
     app.add_option("--joins", joins_, "JSON of an assembly of them, or their truth (DIR/truth.json)")
         ->type_name("FILE")
         ->group("Input");
-    app.add_option("--json", json_, "write the parameters")->type_name("FILE")->group("Output");
+    app.add_option("--json", json_, "write the parameters (-: to stdout)")
+        ->type_name("FILE")
+        ->group("Output");
     add_dust(app, pictures_);
     add_number(app, "--scales", options_.scales, {1, 8}, "scales, 1 to 8 (5)")->group("Search");
     add_seed(app, options_.seed, "of the random numbers")->group("Search");

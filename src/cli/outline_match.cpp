@@ -56,7 +56,9 @@ class OutlineMatchCommand final : public Command {
         ->required()
         ->group("Input");
     app.add_option("B", path_b_, "piece that is moved")->required()->group("Input");
-    app.add_option("--json", json_, "write pose, score and boundary")->type_name("FILE")->group("Output");
+    app.add_option("--json", json_, "write pose, score and boundary (-: to stdout)")
+        ->type_name("FILE")
+        ->group("Output");
     app.add_option("--out", out_, "write match.png and joined.png")->type_name("DIR")->group("Output");
     add_outline_method(app, method_);
     add_calibration(app, calibration_);

@@ -25,9 +25,10 @@ class ReportCommand final : public Command {
         ->type_name("FILE")
         ->group("Output");
     app.option_defaults()->group("Size");
-    add_number(app, "--pictures", options_.pictured_joins, {0, 10000}, "joins that get pictures (60)");
+    add_number(app, "--pictures", options_.pictured_joins, {0, 10000},
+               "joins that get pictures, 0 to 10000 (60)");
     add_number(app, "--faces", options_.fragment_faces, {64, 1e6},
-               "faces a fragment in the 3D view, at most (16000)");
+               "faces a fragment in 3D, 64 to 1000000 (16000)");
   }
 
   ExitCode run(Console& console, Context& context) override {

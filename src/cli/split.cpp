@@ -16,6 +16,7 @@
 #include "cli/json_values.hpp"
 #include "cli/outputs.hpp"
 #include "core/files.hpp"
+#include "core/version.hpp"
 #include "core/words.hpp"
 #include "mesh/load.hpp"
 #include "mesh/save.hpp"
@@ -134,7 +135,7 @@ class SplitCommand final : public Command {
         ->type_name("DIR")
         ->required()
         ->group("Output");
-    app.add_option("--json", json_, "write what was written, and what was left out, as JSON")
+    app.add_option("--json", json_, "write what was written or left out (-: to stdout)")
         ->type_name("FILE")
         ->group("Output");
     app.add_option("--png", png_, "write a picture of the pieces from six sides, numbered")
@@ -173,7 +174,8 @@ class SplitCommand final : public Command {
     for (const auto& file : {json_, png_}) {
       if (file) output.add(*file);
     }
-    if (json_) write_file(*json_, text_of({{"schema", "rejoin.split/1"}, {"scans", result_}}));
+    if (json_)
+      write_file(*json_, text_of({{"schema", "rejoin.split/1"}, {"scans", result_}, {"version", kVersion}}));
     if (png_ && !pictures_.empty()) report::write_png(*png_, report::stacked(pictures_));
     for (const auto& file : {json_, png_}) {
       if (file && (file != png_ || !pictures_.empty())) console.wrote(*file);

@@ -47,10 +47,11 @@ TEST_F(MatchCommand, OutHoldsTheModelsAndThePictures) {
   }
 }
 
-TEST_F(MatchCommand, FacetsTellTheNoiseOfAScan) {
+TEST_F(MatchCommand, FacetsTellTheNoiseOfAScanAndTheVersion) {
   const auto outcome = run({"facets", b, "--json", json});
   ASSERT_EQ(outcome.exit_code, 0);
   const ordered_json found = ordered_json::parse(read_file(json));
+  EXPECT_TRUE(found.contains("version"));
   EXPECT_GT(found["noise"], 0.0);
   EXPECT_LT(found["noise"], 0.001 * found["diameter"].get<double>());
   EXPECT_NE(outcome.out.find("noise "), std::string::npos);

@@ -56,6 +56,7 @@ TEST_F(SplitCommand, GivesEveryPieceAFileAndTellsWhatWasCutAndLeftOut) {
 
   const json result = json::parse(read_file(folder / "s.json"));
   EXPECT_EQ(result["schema"], "rejoin.split/1");
+  EXPECT_TRUE(result.contains("version"));
   ASSERT_EQ(result["scans"].size(), 2U);
   EXPECT_EQ(result["scans"][0]["path"], table);
   EXPECT_GT(result["scans"][0]["table"]["share"], 0.7);

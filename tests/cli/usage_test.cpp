@@ -250,6 +250,34 @@ TEST(Help, OfOutlineCommandsTellsRangesOfNumbersAndDefaultsOfWords) {
   }
 }
 
+TEST(Help, OfEveryJsonFileSaysHowItGoesToStdout) {
+  const std::vector<std::vector<std::string>> commands{{"match"},
+                                                       {"compare"},
+                                                       {"facets"},
+                                                       {"assemble"},
+                                                       {"split"},
+                                                       {"info"},
+                                                       {"bench"},
+                                                       {"outline", "match"},
+                                                       {"outline", "assemble"},
+                                                       {"outline", "calibrate"}};
+  for (std::vector<std::string> words : commands) {
+    words.emplace_back("--help");
+    const std::string help = run(words).out;
+    const std::size_t line = help.find("  --json FILE");
+    ASSERT_NE(line, std::string::npos) << help;
+    EXPECT_NE(help.substr(line, help.find('\n', line) - line).find("(-: to stdout)"), std::string::npos)
+        << help;
+  }
+}
+
+TEST(Help, TellsRangesOfNumbers) {
+  EXPECT_NE(run({"report", "--help"}).out.find("64 to 1000000 (16000)"), std::string::npos);
+  EXPECT_NE(run({"report", "--help"}).out.find("0 to 10000 (60)"), std::string::npos);
+  EXPECT_NE(run({"match", "--help"}).out.find("0 to 45 (10)"), std::string::npos);
+  EXPECT_NE(run({"--help"}).out.find("0 to 1024 (0: all cores)"), std::string::npos);
+}
+
 TEST(Help, IsACommandToo) {
   const std::vector<std::vector<std::string>> commands{{}, {"match"}, {"outline"}, {"outline", "match"}};
   for (std::vector<std::string> command : commands) {
