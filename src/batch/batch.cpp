@@ -48,6 +48,7 @@ class Work {
         listener_(listener),
         context_(context),
         scans_(find_scans(inputs)),
+        untellable_(untellable_scans(inputs)),
         names_(names_of(scans_)),
         equal_sized_(files_of_equal_size(scans_)),
         run_(open(output)),
@@ -128,6 +129,7 @@ class Work {
     for (const auto& [name, fragment] : fragments_) {
       if (fragment.state == store::FragmentState::Bad) listener_.on_fragment(fragment, progress_);
     }
+    for (const store::Fragment& scan : untellable_) listener_.on_fragment(scan, progress_);
     warn_of_sizes();
   }
 
@@ -312,6 +314,7 @@ class Work {
 
   Summary summary() {
     Summary summary;
+    summary.bad = untellable_;
     summary.fragments = fragments_.size();
     for (const auto& [copy, first] : copies_) summary.copies += fragments_.count(copy);
     for (const auto& [name, fragment] : fragments_) {
@@ -329,6 +332,7 @@ class Work {
   Listener& listener_;
   const Context& context_;
   Scans scans_;                               // copies, too
+  std::vector<store::Fragment> untellable_;   // left out of these
   std::vector<std::string> names_;            // of the scans that have pairs
   std::vector<store::Fragment> equal_sized_;  // name and hash
   store::Run run_;

@@ -56,12 +56,13 @@ class Listener {
 };
 
 struct Summary {
-  std::size_t fragments = 0;         ///< that the shard needs, and their copies
-  std::size_t copies = 0;            ///< of those
-  std::vector<store::Fragment> bad;  ///< those that cannot be used
-  std::size_t done_before = 0;       ///< pairs found done
-  Progress progress;                 ///< at the end
-  bool cancelled = false;            ///< what is missing is done by the next run
+  std::size_t fragments = 0;  ///< that the shard needs, and their copies
+  std::size_t copies = 0;     ///< of those
+  std::vector<store::Fragment>
+      bad;  ///< that cannot be used; with those whose names no result can tell, which no database knows
+  std::size_t done_before = 0;  ///< pairs found done
+  Progress progress;            ///< at the end
+  bool cancelled = false;       ///< what is missing is done by the next run
 };
 
 /// A hash of the sources on which the result of a pair depends.

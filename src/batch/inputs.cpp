@@ -115,6 +115,35 @@ Scans scan_a_folder(const fs::path& folder) {
   return scans;
 }
 
+/// With those that no result can tell.
+/// \throws IoError the folder cannot be read   \throws InputError as scan_a_folder()
+Scans all_scans(const fs::path& folder) {
+  std::error_code problem;
+  Scans scans;
+  for (const fs::path& file : scans_in(folder, problem)) scans[file.filename().string()] = file;
+  if (problem) {
+    throw IoError(folder.string(), fmt::format("cannot be read ({})", problem.message()),
+                  "give the folder of the scans");
+  }
+  return scans.empty() ? scan_a_folder(folder) : scans;
+}
+
+std::vector<store::Fragment> untellable_among(const Scans& scans, const fs::path& folder) {
+  std::vector<store::Fragment> list;
+  for (const auto& [name, file] : scans) {
+    try {
+      require_tellable_name(folder / name);
+    } catch (const InputError& error) {
+      list.emplace_back();
+      list.back().name = name;
+      list.back().path = file.string();
+      list.back().state = store::FragmentState::Bad;
+      list.back().error = error.what();
+    }
+  }
+  return list;
+}
+
 void add_bytes(const fs::path& path, XXH3_state_t& state) {
   const auto refuse = [&path](int reason) {
     throw IoError(path.string(), fmt::format("cannot be read ({})", std::strerror(reason)),
@@ -136,23 +165,22 @@ void add_bytes(const fs::path& path, XXH3_state_t& state) {
 }  // namespace
 
 Scans find_scans(const fs::path& folder) {
-  std::error_code problem;
-  Scans scans;
-  for (const fs::path& file : scans_in(folder, problem)) scans[file.filename().string()] = file;
-  if (problem) {
-    throw IoError(folder.string(), fmt::format("cannot be read ({})", problem.message()),
-                  "give the folder of the scans");
-  }
-  if (scans.empty()) scans = scan_a_folder(folder);
+  Scans scans = all_scans(folder);
+  const std::vector<store::Fragment> untellable = untellable_among(scans, folder);
+  for (const store::Fragment& scan : untellable) scans.erase(scan.name);
   if (scans.size() < 2) {
+    if (!untellable.empty()) require_tellable_name(folder / untellable.front().name);
     std::string mend = "give a folder of ply, obj, stl, off, gltf, glb, drc, xyz or pts files";
     if (fs::exists(folder / store::kFileName)) mend = "it is a run: give the folder of its scans";
     if (!scans.empty() && !scans_below(folder).empty())
       mend = "put all scans into one folder, or each into a folder of its own";
     throw InputError(folder.string(), scans.empty() ? "holds no scan" : "holds one scan only", mend);
   }
-  for (const auto& [name, file] : scans) require_tellable_name(folder / name);
   return scans;
+}
+
+std::vector<store::Fragment> untellable_scans(const fs::path& folder) {
+  return untellable_among(all_scans(folder), folder);
 }
 
 std::vector<std::string> names_of(const Scans& scans) {

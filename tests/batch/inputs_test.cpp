@@ -142,6 +142,15 @@ TEST_F(Inputs, NameThatIsNoUtf8IsRefusedAsItCouldNotBeToldApart) {
   EXPECT_NE(error_of_find().find("Gef\uFFFD\uFFFD.ply: has a name"), std::string::npos) << error_of_find();
 }
 
+TEST_F(Inputs, NamesThatNoResultCanTellAreLeftOutAmongOthers) {
+  for (const char* name : {"a.ply", "b.ply", "c\td.ply", "Gef\xe4\xdf.ply"}) put(name, "x");
+  EXPECT_EQ(names_of(find_scans(folder_)), (std::vector<std::string>{"a.ply", "b.ply"}));
+  const std::vector<store::Fragment> left_out = untellable_scans(folder_);
+  ASSERT_EQ(left_out.size(), 2U);
+  EXPECT_NE(left_out[0].error.find("no UTF-8"), std::string::npos) << left_out[0].error;
+  EXPECT_NE(left_out[1].error.find("control character"), std::string::npos) << left_out[1].error;
+}
+
 TEST_F(Inputs, HashTellsContentNotName) {
   const std::string large(3U << 20U, 'x');
   put("a", large);

@@ -289,6 +289,18 @@ TEST_F(Batch, RunKnowsItsScansFromAnyFolderAndKeepsTheirSurfacesWhereTheyAreGone
 #endif
 }
 
+TEST_F(Batch, ScanWhoseNameNoResultCanTellIsReportedAndTheRestGoesOn) {
+  make_scans(folder_ / "scans");
+  fs::copy(folder_ / "scans/a8.ply", folder_ / "scans/c\t8.ply");
+  const Finished finished = run({"batch", folder_ / "scans", "--out", run_});
+  EXPECT_EQ(finished.exit_code, 1);
+  EXPECT_NE(finished.err.find("8.ply: has a line end, tab or other control character"), std::string::npos)
+      << finished.err;
+  EXPECT_NE(finished.err.find("0 of 3 pairs failed, 1 scan cannot be used"), std::string::npos)
+      << finished.err;
+  EXPECT_EQ(content(run_), reference_);
+}
+
 TEST_F(Batch, ScanReplacedSinceIsToldAndWhatWasMatchedIsAssembled) {
   make_scans(folder_ / "scans");
   ASSERT_EQ(run({"batch", folder_ / "scans", "--out", run_, "--quiet"}).exit_code, 0);
