@@ -122,7 +122,8 @@ struct JointError {
   double contact_area = 0;                                   ///< squared mesh units
   /// Median |gap| of B's broken surface where it lies over A's (median_gap()), mesh units; infinite without any.
   double gap_median = std::numeric_limits<double>::infinity();
-  double penetration = 0;  ///< volume of B that lies clearly inside A, over the contact area, mesh units
+  double penetration =
+      0;  ///< volume of B that lies clearly inside A, over the contact area, or the area of what lies inside where that is larger, mesh units
 };
 
 struct Candidate {

@@ -64,9 +64,8 @@ Candidate unmeasured(const Fragment& a, const Fragment& b, const Rigid& pose, co
   c.score = score_of(strength);
   c.error.contact_area = evidence.contact_area;
   c.error.gap_median = evidence.gap_median;
-  if (evidence.contact_area > 0) {
-    c.error.penetration = evidence.penetration * evidence.penetration_area / evidence.contact_area;
-  }
+  const double over = std::max(evidence.contact_area, evidence.penetration_area);
+  if (over > 0) c.error.penetration = evidence.penetration * evidence.penetration_area / over;
   return c;
 }
 

@@ -119,6 +119,17 @@ TEST(Against, NamesWhatTakesMostFromAJoint) {
   EXPECT_EQ(objection(sound()), "");
 }
 
+// Where hardly anything touches, a volume over the contact alone would be many times the piece.
+TEST(Figures, PenetrationIsNoDeeperThanWhatLiesInside) {
+  const Pair pair = make_pair(5);
+  Evidence inside = sound();
+  inside.penetration = 2.0;
+  inside.penetration_area = 50.0;
+  EXPECT_DOUBLE_EQ(unmeasured(pair.a, pair.b, Rigid{}, inside, 0.0).error.penetration, 1.0);
+  inside.contact_area = 0.01;
+  EXPECT_DOUBLE_EQ(unmeasured(pair.a, pair.b, Rigid{}, inside, 0.0).error.penetration, 2.0);
+}
+
 TEST(Against, TellsWhatKeepsAHighScoreFromBeingAJoin) {
   Stability stability;
   stability.margin = 20.0;
