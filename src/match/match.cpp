@@ -267,10 +267,11 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
   if (near && !context.cancelled()) keep_laid(hypotheses, joint, a, b, *near, rounds, options, context);
   if (!context.cancelled()) tighten(hypotheses, joint, b, std::min(a.diameter, b.diameter));
   weigh(hypotheses, joint);
-  hypotheses.resize(std::min(hypotheses.size(), static_cast<std::size_t>(options.max_candidates)));
   if (!context.cancelled()) settle(hypotheses, joint, b, std::min(a.diameter, b.diameter));
   if (near) keep_near(hypotheses, *near);
   if (options.search == Search::Sweep) keep_axes(hypotheses, options, result.warnings);
+  const double next = strongest_rival(hypotheses);
+  hypotheses.resize(std::min(hypotheses.size(), static_cast<std::size_t>(options.max_candidates)));
   clock.lap("align");
 
   context.report("verify", 0.8);
@@ -283,7 +284,6 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
   if (!hypotheses.empty() && !context.cancelled()) {
     const Hypothesis& best = hypotheses.front();
     result.stability = probe(joint, best.pose, best.evidence);
-    const double next = strongest_rival(hypotheses);
     if (result.stability) {
       result.stability->margin = log_odds(best.strength) - log_odds(next);
       if (best.strength > 0.0) result.stability->next_share = next / best.strength;

@@ -21,8 +21,7 @@ constexpr double kSkin = 4.0;                   // patches: less goes on at wron
 constexpr double kLeastTouching = 0.82;         // of what lies over the other surface, what touches
 constexpr double kLeastAgreement = 0.18;        // nats a patch: gaps vary by 0.84 of what the surfaces do
 constexpr std::size_t kShare =
-    8;  // of the places that go on, of which the poses of one pair of facets take one share
-constexpr std::size_t kLeastOfOne = 3;  // at least
+    3;  // the poses of one pair of facets take one of so many parts of the places that go on
 constexpr double kNoLimit = -std::numeric_limits<double>::infinity();
 
 void sort_by_rank(std::vector<Hypothesis>& list) {
@@ -105,14 +104,14 @@ std::vector<Pass> passes(double tolerance, int most) {
        true,
        300,
        true,
-       10 * kept},
+       16 * kept},
       {{.reach_start = 8.0 * t, .reach_end = 3.0 * t, .iterations = 12, .most_samples = 300, .quick = true},
        true,
        1500,
        false,
-       3 * kept},
-      {{6.0 * t, 2.0 * t, 20, 0}, false, 0, false, 2 * kept},
-      {{3.0 * t, 1.0 * t, 15, 0, true}, false, 0, false, 2 * kept}};
+       5 * kept},
+      {{6.0 * t, 2.0 * t, 20, 0}, false, 0, false, 3 * kept},
+      {{3.0 * t, 1.0 * t, 15, 0, true}, false, 0, false, 3 * kept}};
 }
 
 void refine(std::vector<Hypothesis>& list, const Joint& joint, const Pass& pass, const Context& context) {
@@ -159,7 +158,7 @@ std::vector<Hypothesis> shortlist(const std::vector<Hypothesis>& list, const Fra
                                   std::size_t most) {
   const glm::dvec3 centre = mesh::centroid(b.surface);
   const double diameter = std::min(a.diameter, b.diameter);
-  const std::size_t share = std::max(kLeastOfOne, most / kShare);
+  const std::size_t share = std::max<std::size_t>(1, most / kShare);
   PairsOfFacets facets(a, b);
   std::map<std::pair<int, int>, std::size_t> taken;
   std::vector<Hypothesis> kept;

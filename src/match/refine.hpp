@@ -30,7 +30,7 @@ struct Pass {
 
 /// The rounds of a match, first to last; each costs more a hypothesis and keeps fewer.
 /// \param tolerance  Joint::tolerance(), mesh units
-/// \param most       poses that are asked for in the end; twice as many are left, as weigh() puts some of the first last
+/// \param most       poses that are asked for in the end; three times as many are left, as weigh() puts some of the first last
 std::vector<Pass> passes(double tolerance, int most);
 
 /// Aligns every hypothesis, moves it where that does not weaken it (what shape a small contact has may not hold it), and sorts
@@ -42,7 +42,7 @@ void refine(std::vector<Hypothesis>& list, const Joint& joint, const Pass& pass,
 /// \param diameter  of the smaller fragment, mesh units
 std::vector<Hypothesis> distinct(const std::vector<Hypothesis>& list, const Fragment& b, double diameter);
 
-/// The first `most` of a list that are different poses, but of one pair of facets an eighth of them, or three, as long as there are
+/// The first `most` of a list that are different poses, but of one pair of facets a third of them as long as there are
 /// others: where sawn or moulded faces lie on each other, all their poses look better than that of a small break.
 /// \pre sorted by refine()
 std::vector<Hypothesis> shortlist(const std::vector<Hypothesis>& list, const Fragment& a, const Fragment& b,
