@@ -22,7 +22,7 @@ constexpr double kReachEnd = 3.0;
 constexpr double kReachMet = 2.0;
 constexpr std::size_t kMostPoints = 500;  // a pair and way
 constexpr double kPull = 0.03;            // weight of the pair's own pose against a contact point's
-constexpr std::size_t kLeastPoints = 8;   // a contact of fewer says nothing
+constexpr double kLeastPoints = 8.0;      // a contact of fewer says nothing
 
 /// What a pair adds to the normal equations; rows of a, then of b.
 struct Block {
@@ -71,6 +71,9 @@ class Rounds {
   }
 
  private:
+  /// What a sample of a piece counts for.
+  double point_of(const Piece& piece) const { return piece.fragment().facets.sample_area / unit_area_; }
+
   Block block(const Touching& contact, const std::vector<Rigid>& poses, double share) const {
     const Piece& a = pieces_[contact.a];
     const Piece& b = pieces_[contact.b];
@@ -90,7 +93,7 @@ class Rounds {
                             poses[contact.b].rotation * f.normal_a, reach, f.area_of_b / unit_area_);
     }
     if (contact.known == Known::Searched)
-      add_pull(result, contact, poses, std::max(weight, static_cast<double>(kLeastPoints)));
+      add_pull(result, contact, poses, std::max(weight, kLeastPoints * std::min(point_of(a), point_of(b))));
     return result;
   }
 

@@ -8,13 +8,14 @@
 
 namespace rejoin::assembly {
 
-/// Two pieces that touch, and how the pair alone would lie.
+/// Where the pose of two pieces comes from.
 enum class Known {
   Searched,  ///< the pair's own alignment said its pose
   Asked,     ///< whether the two fit where others put them is to be seen; the pose holds nothing
   Met,  ///< they touch where others put them; the pose holds nothing, and what does not touch is not pulled together
 };
 
+/// Two pieces that touch, or may.
 struct Touching {
   std::size_t a = 0;  ///< into the pieces
   std::size_t b = 0;
@@ -23,7 +24,7 @@ struct Touching {
 };
 
 /// Moves the members of a group so that all their contacts fit as well as they can together: robust point-to-plane
-/// residuals between the broken surfaces of every touching pair, both ways, and a weak pull towards the pairs' own poses
+/// residuals between the broken surfaces of every touching pair, both ways, each pair by its area, and a weak pull towards the pairs' own poses
 /// that holds what contact leaves free.  Gauss-Newton with Tukey weights whose reach shrinks.
 /// \param members  piece numbers
 /// \param poses    file coordinates -> common frame, one a piece; those of the members are changed

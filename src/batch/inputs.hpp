@@ -15,8 +15,8 @@ using Scans = std::map<std::string, std::filesystem::path>;
 
 /// All files in the folder whose extension is one that mesh::load() knows, without the models that `rejoin match` and `assemble`
 /// write, and without painted_name() of the others.  Where it holds none, but folders with one scan each, however deep, as apps leave them: these scans by the folders' names.
-/// \throws IoError     the folder cannot be read
 /// Left out are untellable_scans(), too.
+/// \throws IoError     the folder cannot be read
 /// \throws InputError  it holds fewer than two scans, or folders of which one holds several
 Scans find_scans(const std::filesystem::path& folder);
 

@@ -185,7 +185,8 @@ void align(std::vector<Hypothesis>& hypotheses, const Joint& joint, const Fragme
   }
 }
 
-/// The pose that the user has laid, aligned, among the others by its rank and in place of the last, for others in reach may look better.
+/// Puts the pose that the user has laid, aligned, among as many others as are told besides, by its rank: others in reach may look better, but
+/// it stays.
 void keep_laid(std::vector<Hypothesis>& hypotheses, const Joint& joint, const Fragment& a, const Fragment& b,
                const Near& near, std::span<const Pass> rounds, const Options& options,
                const Context& context) {

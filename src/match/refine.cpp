@@ -46,15 +46,12 @@ void tighten_one(Hypothesis& hypothesis, const Joint& joint) {
   }
 }
 
-/// Adds a pose that is none of those in the list.
-/// \return whether it was
-bool add_if_new(const Hypothesis& hypothesis, const glm::dvec3& centre, double diameter,
-                std::vector<Hypothesis>& list) {
-  const bool known = std::any_of(list.begin(), list.end(), [&](const Hypothesis& other) {
+/// Whether a pose is none of those in the list.
+bool is_new(const Hypothesis& hypothesis, const glm::dvec3& centre, double diameter,
+            const std::vector<Hypothesis>& list) {
+  return std::ranges::none_of(list, [&](const Hypothesis& other) {
     return same_pose(other.pose, hypothesis.pose, centre, diameter);
   });
-  if (!known) list.push_back(hypothesis);
-  return !known;
 }
 
 /// The facets of both pieces that poses come from, as users see them: what is one facet there may be several elsewhere.
@@ -150,7 +147,8 @@ void refine(std::vector<Hypothesis>& list, const Joint& joint, const Pass& pass,
 std::vector<Hypothesis> distinct(const std::vector<Hypothesis>& list, const Fragment& b, double diameter) {
   const glm::dvec3 centre = mesh::centroid(b.surface);
   std::vector<Hypothesis> kept;
-  for (const auto& hypothesis : list) add_if_new(hypothesis, centre, diameter, kept);
+  for (const auto& hypothesis : list)
+    if (is_new(hypothesis, centre, diameter, kept)) kept.push_back(hypothesis);
   return kept;
 }
 
@@ -165,16 +163,18 @@ std::vector<Hypothesis> shortlist(const std::vector<Hypothesis>& list, const Fra
   std::vector<Hypothesis> waiting;
   for (const auto& hypothesis : list) {
     if (kept.size() == most) break;
+    if (!is_new(hypothesis, centre, diameter, kept)) continue;
     std::size_t& of_these = taken[facets.of(hypothesis)];
-    if (of_these == share) {
-      if (waiting.size() < most) add_if_new(hypothesis, centre, diameter, waiting);
-    } else if (add_if_new(hypothesis, centre, diameter, kept)) {
+    if (of_these < share) {
       ++of_these;
+      kept.push_back(hypothesis);
+    } else if (waiting.size() < most && is_new(hypothesis, centre, diameter, waiting)) {
+      waiting.push_back(hypothesis);
     }
   }
   for (const auto& hypothesis : waiting) {
     if (kept.size() == most) break;
-    add_if_new(hypothesis, centre, diameter, kept);
+    if (is_new(hypothesis, centre, diameter, kept)) kept.push_back(hypothesis);
   }
   sort_by_rank(kept);
   return kept;

@@ -16,7 +16,7 @@ struct Open {
 /// Leaves out what lies in pores, where nothing can touch it: faces from whose front most directions end at another face near by.
 ///
 /// A piece is porous if a tenth of its area or more lies deep in something, and if that has many mouths: a vessel's inside,
-/// a canal of a long bone and a fold of a figure have few. Where most of what is deep shows along one direction, it is the relief of a
+/// a canal of a long bone and a fold of a figure have few. Where most of every deep place shows along one direction, another one for each, it is the relief of a
 /// splintery break.
 /// \param size  diameter of the piece, mesh units: pores are small against it
 /// \return nothing if the piece is not porous, or hardly anything of it would be left

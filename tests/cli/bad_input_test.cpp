@@ -185,7 +185,7 @@ TEST(BadPlace, OutputsAreTestedBeforeTheScansAreRead) {
   expect_failure(run({"info", "--json", inside}), inside);
 }
 
-#ifndef __SANITIZE_ADDRESS__  // which needs terabytes of addresses
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which need terabytes of addresses
 TEST(BadPlace, TooLittleMemoryIsToldAsThat) {
   const TemporaryFolder folder;
   write_file(folder / "a.ply", kTetrahedron);

@@ -163,6 +163,17 @@ TEST(Refine, PosesOfOnePairOfFacetsLeavePlacesToOthers) {
   EXPECT_EQ(std::ranges::count(kept, -1, &Hypothesis::facet_a), 2);
   for (int k = 0; k < 14; ++k)  // the best of the first pair's take what is left
     EXPECT_EQ(kept[static_cast<std::size_t>(k)].evidence.information, 500.0 - k);
+
+  const std::vector<Hypothesis> others = poses_of(-1, -1, 100, evidence, 400.0, 5000.0);
+  const std::vector<Hypothesis> more = poses_of(0, -1, 100, evidence, 300.0, -5000.0);
+  list = poses_of(0, 0, 100, evidence, 500.0, 0.0);
+  list.insert(list.end(), others.begin(), others.end());
+  list.insert(list.end(), more.begin(), more.end());
+  const auto mixed = shortlist(list, pair.a, pair.b, 18);
+  ASSERT_EQ(mixed.size(), 18U);
+  for (std::size_t k = 0; k < 18; ++k)  // six of each
+    EXPECT_EQ(mixed[k].evidence.information,
+              500.0 - 100.0 * static_cast<double>(k / 6) - static_cast<double>(k % 6));
 }
 
 TEST(Refine, MovesWhatGainsAndLeavesWhatWouldWeaken) {
