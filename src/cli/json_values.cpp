@@ -91,7 +91,7 @@ std::optional<Rigid> rigid_from_json(const ordered_json& rows) {
 std::string why_no_rigid(const ordered_json& rows) {
   if (!is_matrix(rows)) return "is no 4 x 4 matrix of numbers whose last row is 0, 0, 0, 1";
   const Rigid pose = unchecked(rows);
-  if (is_far(pose)) return "has no shift of at most 1e13";
+  if (is_far(pose)) return "shifts by more than 1e13";
   const double off = off_rotation(pose.rotation);
   if (off <= kLargestRounding) return "is no rotation, as it mirrors";
   return fmt::format(

@@ -18,7 +18,7 @@ nlohmann::ordered_json to_json(const Rigid& pose);
 /// matrices come with three decimals; the rotation is then made orthonormal), or shifts along an axis by more than 1e13.
 std::optional<Rigid> rigid_from_json(const nlohmann::ordered_json& rows);
 
-/// What to tell of a value that rigid_from_json() refuses, behind its name: "is no ..."; how far it is from a rotation where that is why.
+/// What to tell of a value that rigid_from_json() refuses, behind its name: "is no ..." or "shifts ..."; how far it is from a rotation where that is why.
 std::string why_no_rigid(const nlohmann::ordered_json& rows);
 
 /// The text of a JSON file; whether it is JSON is for the parser to say.

@@ -234,7 +234,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "are 0.02 off"},
         Hostile{"ShiftThatNoScanNeeds",
                 R"({"poses": {"a.ply": [[1, 0, 0, 0], [0, 1, 0, -1e20], [0, 0, 1, 0], [0, 0, 0, 1]]}})",
-                "shift of at most 1e13"},
+                "shifts by more than 1e13"},
         Hostile{"HugeNumber",
                 R"({"poses": {"a.ply": [[1e999, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}})",
                 "wishes.json: is no JSON (a number is beyond"}),
