@@ -64,11 +64,8 @@ class Joint {
   /// The same as evidence_above() is to evidence().
   std::optional<Evidence> agreed_evidence_above(double limit, const Rigid& pose) const;
 
-  /// Every patch of a contact counts as one that is independent of the others.  Of smooth surfaces that is not so: there the shape is the
-  /// same over many patches.  This is the information that is left if deviations within small surroundings, between these within
-  /// larger ones, and between larger ones are each weighed with the gaps of the same scale, and with the number of such surroundings.
-  /// \return 0 .. 1, of Evidence::information; the geometric mean of both ways, as in agreed_evidence()
-  double share_by_scale(const Rigid& pose) const;
+  /// The geometric means of both ways, as in agreed_evidence().
+  Scales scales(const Rigid& pose) const;
 
   /// contact_tolerance() of the two.
   double tolerance() const;

@@ -48,6 +48,7 @@ constexpr double kMostContinuation = 4.5;
 constexpr std::array kScales{1.5,
                              3.0};      // patches: radii of the surroundings that tell small shape from large
 constexpr double kSmallestShare = 0.4;  // of the information, by scales: right poses have as much
+constexpr double kDrift = 1.25;         // of sides of one break at most, if the scans are true
 constexpr double kHalf = 0.5;           // of the shape's worth: what takes that is told
 constexpr double kNearCosts = 6.0;      // strength: within kNear tolerances more fits by chance
 constexpr double kNearPart = 0.6;       // of what counts there, at most: of exact scans the tolerance decides
@@ -74,6 +75,7 @@ class Look {
   Begun begin(int facet_b) const {
     Begun begun;
     begun.evidence.tolerance = lengths_.tolerance;
+    begun.evidence.explained = lengths_.explained;
     Contact contact = contact_of(b_.broken_of(facet_b));
     look_at_contact(contact, begun.evidence);
     begun.touching = std::move(contact.touching);
@@ -91,17 +93,18 @@ class Look {
     return e;
   }
 
-  /// Joint::share_by_scale(), one way.
-  double share_by_scale() const {
+  /// Joint::scales(), one way.
+  Scales scales() const {
     const Contact contact = contact_of(b_.broken_of(-1));
-    if (!contact.has_shape()) return 1.0;
+    if (!contact.has_shape()) return {};
     const std::vector<double> heights =
         heights_above_quadric(contact.core, glm::normalize(contact.normal), kQuadricRounds);
     const std::array relief = variances_by_scale(contact.core, heights);
     const std::array gaps = variances_by_scale(contact.core, contact.core_gaps);
     const double noise = lengths_.noise * lengths_.noise;
+    const double drift = gaps.front() > 0.0 ? std::sqrt(gaps.back() / gaps.front()) : 1.0;
     const double whole = std::log((relief.back() + noise) / (gaps.back() + noise));
-    if (whole <= 0.0) return 1.0;
+    if (whole <= 0.0) return {.share = 1.0, .drift = drift};
     double told = 0.0;
     double patches = 1.0;  // of all, what surroundings of this scale have of their own
     double inside_relief = 0.0;
@@ -117,7 +120,7 @@ class Look {
       inside_gaps = gaps[k];
       patches = larger;
     }
-    return std::min(1.0, told / whole);
+    return {.share = std::min(1.0, told / whole), .drift = drift};
   }
 
   bool looks_across_border() const { return lengths_.thickness <= 0 && most_samples_ <= 0; }
@@ -418,6 +421,11 @@ double strength(const Evidence& evidence) {
 
 std::string objection(const Evidence& evidence) {
   if (evidence.tolerance <= 0) return {};
+  if (drifts(evidence)) {
+    return fmt::format(
+        "the gap drifts over the break, by {:.2g}, and the scans stray by less: these are alike, or worn",
+        evidence.gap_spread);
+  }
   const auto [touching, walls, tight] = reserves_of(evidence);
   const double least = std::min({touching, walls, tight});
   if (least > kHalf) return {};
@@ -433,10 +441,15 @@ std::string objection(const Evidence& evidence) {
                      evidence.gap_spread);
 }
 
-Evidence told_by_scale(Evidence evidence, double share) {
-  const double part = std::min(1.0, share / kSmallestShare);
+bool drifts(const Evidence& evidence) {
+  return evidence.drift > kDrift && evidence.gap_spread > evidence.explained;
+}
+
+Evidence told_by_scale(Evidence evidence, const Scales& scales) {
+  const double part = std::min(1.0, scales.share / kSmallestShare);
   evidence.information *= part * part;
   evidence.near_information *= part * part;
+  evidence.drift = scales.drift;
   return evidence;
 }
 
@@ -461,9 +474,10 @@ Evidence Joint::evidence(const Rigid& pose, int most_samples, int facet_b, bool 
   return *evidence_above(kNoLimit, pose, {most_samples, facet_b, quick});
 }
 
-double Joint::share_by_scale(const Rigid& pose) const {
-  return std::sqrt(Look(*sides_, pose, 0, false).share_by_scale() *
-                   Look(*exchanged_, inverse(pose), 0, false).share_by_scale());
+Scales Joint::scales(const Rigid& pose) const {
+  const Scales there = Look(*sides_, pose, 0, false).scales();
+  const Scales back = Look(*exchanged_, inverse(pose), 0, false).scales();
+  return {.share = std::sqrt(there.share * back.share), .drift = std::sqrt(there.drift * back.drift)};
 }
 
 std::optional<Evidence> Joint::agreed_evidence_above(double limit, const Rigid& pose) const {

@@ -44,7 +44,10 @@ struct Evidence {
   double wall_share = 1;
   /// Solid pieces, all samples looked at: skin around the contact that goes on across its border, in patches.  0 for thin ones.
   double continuation = 0;
-  double tolerance = 0;    ///< distance below which the surfaces touch, mesh units
+  double drift = 1;      ///< Scales::drift, once told_by_scale() was asked
+  double tolerance = 0;  ///< distance below which the surfaces touch, mesh units
+  /// Gap spread that the scans' errors explain at most, mesh units; infinite where these are not known.
+  double explained = std::numeric_limits<double>::infinity();
   glm::dvec3 normal{0.0};  ///< mean outward normal of A's shared surface, unit; 0 without any
   glm::dvec3 centre{0.0};  ///< of the shared surface, relative to A's origin
 };
@@ -60,10 +63,25 @@ std::string objection(const Evidence& evidence);
 /// Of what lies over the other surface or inside the other body, the share that touches, 0..1.
 double touching_share(const Evidence& evidence);
 
-/// The evidence with less information where too little is left of it scale by scale, as where smooth surfaces fit each other loosely.
-/// \param share  Joint::share_by_scale()
+/// What of a joint is seen at which scale.
+struct Scales {
+  /// Of Evidence::information, 0 .. 1, what is left if deviations within small surroundings, between these within larger ones, and between
+  /// larger ones are each weighed with the gaps of the same scale, and with the number of such surroundings.  As it is, every patch
+  /// counts as one that is independent of the others; of smooth surfaces the shape is the same over many patches.
+  double share = 1;
+  /// Deviation of the gaps as a whole over that from their small surroundings: about 1 where sides of one break lie on each other, more
+  /// where surfaces that are alike bend away from each other.
+  double drift = 1;
+};
+
+/// The evidence with its drift, and less information where too little is left of it scale by scale, as where smooth surfaces fit each
+/// other loosely.
 /// \source docs/scoring.md
-Evidence told_by_scale(Evidence evidence, double share);
+Evidence told_by_scale(Evidence evidence, const Scales& scales);
+
+/// Whether the gaps drift by more than the scans' errors explain, as where parts of one form broke alike, and where breaks are worn.
+/// \source docs/scoring.md
+bool drifts(const Evidence& evidence);
 
 /// What poses of one pair are ordered by: the strength, and a little for every patch that touches.  The strength of weak poses may
 /// be chance, and of these the right ones have more contact.  Says nothing across pairs.

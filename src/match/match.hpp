@@ -61,7 +61,9 @@ struct Fragment {
   double least_extent = 0;    ///< along the axis along which it spreads least, mesh units
   double resolution = 0;      ///< sample spacing, mesh units
   double noise = 0;           ///< of the scan, mesh units (mesh/noise.hpp)
-  double noise_left = 0;      ///< of it, in `coarse` and `facets` of a noisy scan, mesh units; else 0
+  /// waviness() of its surface, mesh units: errors that near points of the scan share are no larger
+  double waviness = std::numeric_limits<double>::infinity();
+  double noise_left = 0;  ///< of it, in `coarse` and `facets` of a noisy scan, mesh units; else 0
   std::optional<glm::dvec3>
       middle;  ///< view_centre() of `coarse`, where it is known: it takes time at every pair else
   std::vector<int>

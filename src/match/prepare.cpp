@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "match/match.hpp"
 #include "match/pose_space.hpp"
+#include "match/waviness.hpp"
 #include "mesh/bodies.hpp"
 #include "mesh/flaps.hpp"
 #include "mesh/noise.hpp"
@@ -184,6 +185,7 @@ Fragment prepare(std::string path, mesh::Mesh scan, const Context& context) {
   fragment.middle = view_centre(fragment.coarse);
   clock.lap("coarse");
   fragment.facets = mesh::segment(matched, fragment.diameter);
+  fragment.waviness = waviness(fragment.facets);
   fragment.least_extent = mesh::least_extent(fragment.facets.samples.points);
   fragment.sample_of_face = mesh::sample_of_faces(fragment.facets, fragment.coarse);
   if (open) tell_pores(fragment, open->share);

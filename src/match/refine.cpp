@@ -22,6 +22,7 @@ constexpr double kLeastTouching = 0.82;         // of what lies over the other s
 constexpr double kLeastAgreement = 0.18;        // nats a patch: gaps vary by 0.84 of what the surfaces do
 constexpr std::size_t kShare =
     3;  // the poses of one pair of facets take one of so many parts of the places that go on
+constexpr int kHalvings = 40;
 constexpr double kNoLimit = -std::numeric_limits<double>::infinity();
 
 void sort_by_rank(std::vector<Hypothesis>& list) {
@@ -78,14 +79,14 @@ class PairsOfFacets {
 
 /// With less information where only large, smooth shape agrees, loosely.
 Evidence told(const Evidence& evidence, const Joint& joint, const Rigid& pose) {
-  return strength(evidence) > 0.0 ? told_by_scale(evidence, joint.share_by_scale(pose)) : evidence;
+  return strength(evidence) > 0.0 ? told_by_scale(evidence, joint.scales(pose)) : evidence;
 }
 
-/// Held back where what touches may be walls, solid pieces lie loosely on each other, or hardly any shape agrees.
+/// Held back where what touches may be walls, solid pieces lie loosely on each other, hardly any shape agrees, or gaps drift.
 Evidence held_back(const Evidence& evidence, const Joint& joint) {
   const bool solid = joint.thickness() <= 0.0;
-  const bool doubtful =
-      may_be_walls(evidence) || (solid && lies_loosely(evidence)) || hardly_agrees(evidence);
+  const bool doubtful = may_be_walls(evidence) || (solid && lies_loosely(evidence)) ||
+                        hardly_agrees(evidence) || drifts(evidence);
   return doubtful ? at_most_even(evidence) : evidence;
 }
 
@@ -204,15 +205,20 @@ bool hardly_agrees(const Evidence& evidence) {
 }
 
 Evidence at_most_even(const Evidence& evidence) {
-  const double whole = strength(evidence);
-  if (whole <= kEven) return evidence;
-  Evidence held = evidence;
-  held.information = held.near_information = 0.0;
-  const double skin = strength(held);
-  const double part = std::max(0.0, kEven - skin) / (whole - skin);
-  held.information = part * evidence.information;
-  held.near_information = part * evidence.near_information;
-  return held;
+  if (strength(evidence) <= kEven) return evidence;
+  const auto with = [&](double part) {
+    Evidence held = evidence;
+    held.information = part * evidence.information;
+    held.near_information = part * evidence.near_information;
+    return held;
+  };
+  double low = 0.0;  // strength is no line in it: of what counts within twice the distances 6 is taken off
+  double high = 1.0;
+  for (int step = 0; step < kHalvings; ++step) {
+    const double part = 0.5 * (low + high);
+    (strength(with(part)) <= kEven ? low : high) = part;
+  }
+  return with(low);
 }
 
 Evidence weigh(const Evidence& evidence, const Joint& joint, const Rigid& pose) {

@@ -70,7 +70,7 @@ bool hardly_agrees(const Evidence& evidence);
 Evidence at_most_even(const Evidence& evidence);
 
 /// The evidence of a pose with less information where it would say too much: where only large, smooth shape agrees, loosely
-/// (told_by_scale()), and where what touches may be walls, solid pieces lie loosely on each other, or hardly any shape agrees: such a joint is
+/// (told_by_scale()), and where what touches may be walls, solid pieces lie loosely on each other, hardly any shape agrees, or gaps drift: such a joint is
 /// at most as likely as not.
 /// \param evidence  joint.agreed_evidence(pose)
 /// \source docs/scoring.md

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -84,7 +85,9 @@ struct JointLengths {
   double spacing = 0;    ///< of the sparser samples
   double tolerance = 0;  ///< distance below which surfaces touch
   double noise = 0;      ///< of the scans
-  double patch = 0;      ///< side of a patch of surface whose relief is independent of the next one's
+  /// Gap spread that the scans' errors explain at most; infinite where these are not known.
+  double explained = std::numeric_limits<double>::infinity();
+  double patch = 0;  ///< side of a patch of surface whose relief is independent of the next one's
 
   /// How deep a body's surface can lie in the other one's.
   double deepest() const { return thickness > 0 ? 0.6 * thickness : 8.0 * spacing; }
