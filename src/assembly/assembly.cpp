@@ -100,12 +100,12 @@ class Assembler {
     std::stable_sort(result.joins.begin(), result.joins.end(),
                      [](const Join& x, const Join& y) { return x.score > y.score; });
     lay_out();
+    result.cancelled = context.cancelled();
     for (std::size_t k = 0; k < pieces_.size(); ++k) result.placements[k].pose = growth_.poses[k];
     tell_confidence(result);
     tell_reasons(result);
     tell_parted_objects(result);
     tell_broken_wishes(result);
-    result.cancelled = context.cancelled();
     return result;
   }
 
@@ -121,7 +121,7 @@ class Assembler {
     growth_ = best_growth(grower_, options_, context);
     const Growth unasked = growth_;
     std::vector<std::pair<std::size_t, std::size_t>> unmet;
-    while (!context.cancelled() && add_unmet(unmet)) {
+    while (!context.cancelled() && add_unmet(unmet, context)) {
       grower_.want(unmet);
       growth_ = best_growth(grower_, options_, context);
     }
@@ -129,24 +129,26 @@ class Assembler {
   }
 
   /// Adds the pairs that must join and do not; false if there are no more.
-  bool add_unmet(std::vector<std::pair<std::size_t, std::size_t>>& unmet) const {
+  bool add_unmet(std::vector<std::pair<std::size_t, std::size_t>>& unmet, const Context& context) const {
     const std::size_t before = unmet.size();
+    Growth settled = growth_;
+    std::set<std::size_t> done;  // groups
     for (const auto& pair : options_.constraints.must_join) {
-      if (std::find(unmet.begin(), unmet.end(), pair) == unmet.end() && !joins(pair.first, pair.second))
-        unmet.push_back(pair);
+      if (context.cancelled()) return false;
+      if (std::find(unmet.begin(), unmet.end(), pair) != unmet.end()) continue;
+      const std::size_t group = growth_.group[pair.first];
+      if (group == growth_.group[pair.second] && done.insert(group).second)
+        grower_.settle(settled, members_of(group));
+      if (!touch_in(settled, pair.first, pair.second)) unmet.push_back(pair);
     }
     return unmet.size() > before;
   }
 
-  /// Whether two pieces touch where they lie.
-  bool joins(std::size_t a, std::size_t b) const {
-    if (growth_.group[a] != growth_.group[b]) return false;
-    Growth settled = growth_;
+  std::vector<std::size_t> members_of(std::size_t group) const {
     std::vector<std::size_t> members;
     for (std::size_t k = 0; k < pieces_.size(); ++k)
-      if (settled.group[k] == settled.group[a]) members.push_back(k);
-    grower_.settle(settled, members);
-    return touch_in(settled, a, b);
+      if (growth_.group[k] == group) members.push_back(k);
+    return members;
   }
 
   bool touch_in(const Growth& growth, std::size_t a, std::size_t b) const {
@@ -292,7 +294,8 @@ class Assembler {
         if (link.a != k || !placement.reason.empty()) continue;
         placement.reason = why(rejection, link);
       }
-      if (placement.reason.empty()) placement.reason = best_of(k);
+      if (placement.reason.empty())
+        placement.reason = result.cancelled ? "interrupted before it was put together" : best_of(k);
     }
   }
 
@@ -312,7 +315,9 @@ class Assembler {
       return fmt::format("nothing fits it: its best score with another fragment is {:.3f}", best->score);
     if (best->holds || best->score < options_.sure) return named("no join is sure: the best is with");
     return named("no join is sure: the best is with") +
-           ", but another pose of the two is nearly as good, or parts of their surfaces disagree on the pose";
+           ", but another pose of the two comes near, parts of their surfaces disagree on the pose, "
+           "or one "
+           "slides along the other";
   }
 
   /// Sure joins between two objects that cannot lie as they say, the strongest of each two: often a second scan of pieces makes an
@@ -345,7 +350,7 @@ class Assembler {
       if (group(a) == group(b) && (overlap.count(a) != 0 || overlap.count(b) != 0))
         return fmt::format("do {{{}}} and {{{}}} join, as you said?", a, b);
     }
-    return "are these two scans of one piece?";
+    return "are these two scans of one piece, or like pieces that broke alike?";
   }
 
   void tell_broken_wishes(Result& result) const {

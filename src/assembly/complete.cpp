@@ -1,8 +1,10 @@
 #include "assembly/complete.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 #include <optional>
+#include <tuple>
 
 #include "core/parallel.hpp"
 #include "match/align.hpp"
@@ -14,8 +16,9 @@ namespace {
 
 constexpr double kLeastScore = 0.3;  // of the links that are combined
 constexpr std::size_t kPerPair = 2;
-constexpr std::size_t kMost = 1000;  // combinations
-constexpr double kLikely = 0.5;      // of what comes out
+constexpr std::size_t kMost = 1000;  // combinations that are aligned, or so many for each piece:
+constexpr std::size_t kMostOfPiece = 8;
+constexpr double kLikely = 0.5;  // of what comes out
 
 using Key = std::pair<std::size_t, std::size_t>;
 
@@ -40,8 +43,8 @@ std::map<Key, std::vector<Link>> best_links(const std::vector<Link>& links) {
   return result;
 }
 
-/// All combinations a-k, k-b with a < b; `score` is the product of both.
-std::vector<Link> combinations(const std::vector<Link>& links, std::size_t pieces) {
+/// All combinations a-k, k-b with a < b; `score` is the product of both, and two sure links hold: they put all three together anyhow.
+std::vector<Link> combinations(const std::vector<Link>& links, std::size_t pieces, double sure) {
   std::vector<std::vector<Link>> from(pieces);  // by its a
   for (const auto& [key, list] : best_links(links)) {
     for (const Link& link : list) {
@@ -53,14 +56,21 @@ std::vector<Link> combinations(const std::vector<Link>& links, std::size_t piece
   for (const auto& around : from) {
     for (const Link& x : around) {
       for (const Link& y : around) {
-        if (x.b < y.b) result.push_back({x.b, y.b, inverse(x.pose) * y.pose, x.score * y.score});
+        if (x.b >= y.b) continue;
+        const bool both_sure = x.holds && y.holds && std::min(x.score, y.score) >= sure;
+        result.push_back({x.b, y.b, inverse(x.pose) * y.pose, x.score * y.score, both_sure});
       }
     }
   }
-  std::stable_sort(result.begin(), result.end(),
-                   [](const Link& x, const Link& y) { return x.score > y.score; });
-  if (result.size() > kMost) result.resize(kMost);
   return result;
+}
+
+/// The likeliest, of those that decide something first.
+void keep_most(std::vector<Link>& guesses, std::size_t pieces) {
+  std::stable_sort(guesses.begin(), guesses.end(), [](const Link& x, const Link& y) {
+    return std::tie(x.holds, y.score) < std::tie(y.holds, x.score);
+  });
+  guesses.resize(std::min(guesses.size(), std::max(kMost, kMostOfPiece * pieces)));
 }
 
 class Completer {
@@ -70,11 +80,17 @@ class Completer {
     for (const Link& link : links) known_[{link.a, link.b}].push_back(link.pose);
   }
 
+  /// Whether two pieces touch so, and no link says it.
+  bool is_open(const Link& guess) const {
+    const Piece& a = pieces_[guess.a];
+    const Piece& b = pieces_[guess.b];
+    return !is_known(guess) && are_near(a, b, guess.pose, 0.0) &&
+           touch(a, b, guess.pose).area >= kContact * std::min(a.area(), b.area());
+  }
+
   std::optional<Link> judged(const Link& guess) const {
     const Piece& a = pieces_[guess.a];
     const Piece& b = pieces_[guess.b];
-    if (is_known(guess) || !are_near(a, b, guess.pose, 0.0)) return std::nullopt;
-    if (touch(a, b, guess.pose).area < kContact * std::min(a.area(), b.area())) return std::nullopt;
     const match::Joint joint(a.fragment(), b.fragment());
     const double tolerance = joint.tolerance();
     const Rigid rough = joint.align(match::to_origins(a.fragment(), b.fragment(), guess.pose),
@@ -83,7 +99,8 @@ class Completer {
     const double score =
         match::score_of(match::strength(match::weigh(joint.agreed_evidence(fine), joint, fine)));
     if (score < kLikely) return std::nullopt;
-    const Link link{guess.a, guess.b, match::to_files(a.fragment(), b.fragment(), fine), score};
+    // No search told what else these two would do, nor was it probed: the pair it came from is to bear witness.
+    const Link link{guess.a, guess.b, match::to_files(a.fragment(), b.fragment(), fine), score, false};
     const bool stayed = same_pose(a, b, guess.pose, link.pose, options_);
     if (!stayed || is_known(link) || interpenetrate(a, b, link.pose)) return std::nullopt;
     return link;
@@ -110,8 +127,17 @@ class Completer {
 
 std::vector<Link> completed_triangles(const std::vector<Piece>& pieces, const std::vector<Link>& links,
                                       const Options& options, const Context& context) {
-  const std::vector<Link> guesses = combinations(links, pieces.size());
+  const std::vector<Link> all = combinations(links, pieces.size(), options.sure);
   const Completer completer(pieces, links, options);
+  std::vector<std::uint8_t> open(all.size());
+  parallel_for(all.size(), 16, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last && !context.cancelled(); ++k)
+      open[k] = completer.is_open(all[k]) ? 1 : 0;
+  });
+  std::vector<Link> guesses;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (open[k] != 0) guesses.push_back(all[k]);
+  keep_most(guesses, pieces.size());
   std::vector<std::optional<Link>> found(guesses.size());
   parallel_for(guesses.size(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last && !context.cancelled(); ++k)

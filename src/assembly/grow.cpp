@@ -295,7 +295,7 @@ std::vector<Grower::Two> Grower::unsure_together(const State& state, const Conte
         const Proposal& p = *list[x].proposal;
         const Proposal& q = *list[y].proposal;
         if (list[x].group != list[y].group && p.certainty() + q.certainty() >= kTogetherWorth)
-          result.push_back({{p.link, q.link}, p.alone + q.alone});
+          result.push_back({{p.link, q.link}, std::min({p.alone, q.alone, p.alone + q.alone})});
       }
     }
   }

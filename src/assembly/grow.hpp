@@ -95,7 +95,7 @@ class Grower {
   /// Two links that make three groups one.
   struct Two {
     std::array<std::size_t, 2> links;
-    double alone;  ///< log-odds of both by themselves
+    double alone;  ///< log-odds of both by themselves, against that only one is true and that none is
   };
 
   /// One growth on its way.

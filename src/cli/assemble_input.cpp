@@ -143,8 +143,8 @@ AssembleInput read_run(const fs::path& folder, Console& console, const Context& 
     const std::vector<store::Candidate> candidates = run.candidates(pair);
     if (candidates.empty()) input.without_pose[std::minmax(a->second, b->second)] = why_none(pair);
     for (const store::Candidate& candidate : candidates) {
-      const bool holds =
-          join || candidate.score < match::kSure;  // else only its stability kept the verdict from "join"
+      // Else only its stability kept the verdict from "join", or it is a later pose, which was not probed.
+      const bool holds = (join && candidate.rank == 1) || candidate.score < match::kSure;
       input.links.push_back({a->second, b->second, candidate.pose, candidate.score, holds});
     }
   }
