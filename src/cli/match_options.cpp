@@ -77,7 +77,9 @@ match::Options MatchOptions::values() const {
 /// An option that changes nothing is a mistake: the user expects something of it.
 void MatchOptions::require_effect(const match::Options& options) const {
   const bool by_material = options.constraint == match::Constraint::Material || options.material_a;
-  const bool tolerated = options.constraint == match::Constraint::Direction ||
+  const bool annealed_facets =
+      options.search == match::Search::Esa && !(options.facets_a.empty() && options.facets_b.empty());
+  const bool tolerated = options.constraint == match::Constraint::Direction || annealed_facets ||
                          (by_material && options.search == match::Search::Sweep);
   if (tolerance_->count() > 0 && !tolerated) {
     throw UsageError("--tolerance", "has no direction that it could be of",

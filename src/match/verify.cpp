@@ -23,6 +23,12 @@ bool has_rival(const Stability& stability) {
   return stability.margin < kAhead || stability.next_share > kNext;
 }
 
+std::string told_rival(const Stability& stability) {
+  if (stability.next_share > kNext) return "another pose of the two is nearly as good";
+  return fmt::format("another pose of the two is {:.1f} behind in log-odds, and {:.0f} are asked for a join",
+                     stability.margin, kAhead);
+}
+
 }  // namespace
 
 double log_odds(double strength) {
@@ -48,7 +54,7 @@ std::string against(const Evidence& evidence, double score, const std::optional<
   if (verdict_of(score, stability) == Verdict::Join) return {};
   if (score >= kSure) {
     if (!stability) return "it was not looked at whether the pose holds";
-    if (has_rival(*stability)) return "another pose of the two is nearly as good";
+    if (has_rival(*stability)) return told_rival(*stability);
     if (stability->repeat_deg > kSteady)
       return fmt::format("either half of the break turns the pose by {:.1f} degrees", stability->repeat_deg);
     return "one piece slides along the other: nothing holds it there";
