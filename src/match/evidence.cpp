@@ -102,9 +102,10 @@ class Look {
     const std::array relief = variances_by_scale(contact.core, heights);
     const std::array gaps = variances_by_scale(contact.core, contact.core_gaps);
     const double noise = lengths_.noise * lengths_.noise;
-    const double drift = gaps.front() > 0.0 ? std::sqrt(gaps.back() / gaps.front()) : 1.0;
+    const double spread = robust_deviation(gaps_above_quadric(contact));
+    const double drift = gaps.front() > 0.0 ? spread / std::sqrt(gaps.front()) : 1.0;
     const double whole = std::log((relief.back() + noise) / (gaps.back() + noise));
-    if (whole <= 0.0) return {.share = 1.0, .drift = drift};
+    if (whole <= 0.0) return {.share = 1.0, .drift = drift, .spread = spread};
     double told = 0.0;
     double patches = 1.0;  // of all, what surroundings of this scale have of their own
     double inside_relief = 0.0;
@@ -120,7 +121,7 @@ class Look {
       inside_gaps = gaps[k];
       patches = larger;
     }
-    return {.share = std::min(1.0, told / whole), .drift = drift};
+    return {.share = std::min(1.0, told / whole), .drift = drift, .spread = spread};
   }
 
   bool looks_across_border() const { return lengths_.thickness <= 0 && most_samples_ <= 0; }
@@ -199,6 +200,15 @@ class Look {
                     std::log((e.relief * e.relief + lengths_.noise * lengths_.noise) /
                              (e.gap_spread * e.gap_spread + lengths_.noise * lengths_.noise));
     e.near_information = e.information;
+  }
+
+  /// Of the core's gaps, over the plane of the joint.
+  static std::vector<double> gaps_above_quadric(const Contact& contact) {
+    const glm::dvec3 normal = glm::normalize(contact.normal);
+    std::vector<glm::dvec3> raised = contact.core;
+    for (std::size_t i = 0; i < raised.size(); ++i)
+      raised[i] += (contact.core_gaps[i] - glm::dot(raised[i], normal)) * normal;
+    return heights_above_quadric(raised, normal, kQuadricRounds);
   }
 
   /// Squared robust deviations of values at points from their means over the surroundings, from the smallest scale to the whole.
@@ -421,11 +431,6 @@ double strength(const Evidence& evidence) {
 
 std::string objection(const Evidence& evidence) {
   if (evidence.tolerance <= 0) return {};
-  if (drifts(evidence)) {
-    return fmt::format(
-        "the gap drifts over the break, by {:.2g}, and the scans stray by less: these are alike, or worn",
-        evidence.gap_spread);
-  }
   const auto [touching, walls, tight] = reserves_of(evidence);
   const double least = std::min({touching, walls, tight});
   if (least > kHalf) return {};
@@ -442,7 +447,7 @@ std::string objection(const Evidence& evidence) {
 }
 
 bool drifts(const Evidence& evidence) {
-  return evidence.drift > kDrift && evidence.gap_spread > evidence.explained;
+  return evidence.drift > kDrift && evidence.drift_spread > evidence.explained;
 }
 
 Evidence told_by_scale(Evidence evidence, const Scales& scales) {
@@ -450,6 +455,7 @@ Evidence told_by_scale(Evidence evidence, const Scales& scales) {
   evidence.information *= part * part;
   evidence.near_information *= part * part;
   evidence.drift = scales.drift;
+  evidence.drift_spread = scales.spread;
   return evidence;
 }
 
@@ -477,7 +483,9 @@ Evidence Joint::evidence(const Rigid& pose, int most_samples, int facet_b, bool 
 Scales Joint::scales(const Rigid& pose) const {
   const Scales there = Look(*sides_, pose, 0, false).scales();
   const Scales back = Look(*exchanged_, inverse(pose), 0, false).scales();
-  return {.share = std::sqrt(there.share * back.share), .drift = std::sqrt(there.drift * back.drift)};
+  return {.share = std::sqrt(there.share * back.share),
+          .drift = std::sqrt(there.drift * back.drift),
+          .spread = std::sqrt(there.spread * back.spread)};
 }
 
 std::optional<Evidence> Joint::agreed_evidence_above(double limit, const Rigid& pose) const {

@@ -44,9 +44,10 @@ struct Evidence {
   double wall_share = 1;
   /// Solid pieces, all samples looked at: skin around the contact that goes on across its border, in patches.  0 for thin ones.
   double continuation = 0;
-  double drift = 1;      ///< Scales::drift, once told_by_scale() was asked
-  double tolerance = 0;  ///< distance below which the surfaces touch, mesh units
-  /// Gap spread that the scans' errors explain at most, mesh units; infinite where these are not known.
+  double drift = 1;         ///< Scales::drift and Scales::spread, once told_by_scale() was asked
+  double drift_spread = 0;  ///< mesh units
+  double tolerance = 0;     ///< distance below which the surfaces touch, mesh units
+  /// Gap spread that the scans' errors explain at most, or that tells nothing, mesh units; infinite where these are not known.
   double explained = std::numeric_limits<double>::infinity();
   glm::dvec3 normal{0.0};  ///< mean outward normal of A's shared surface, unit; 0 without any
   glm::dvec3 centre{0.0};  ///< of the shared surface, relative to A's origin
@@ -69,9 +70,10 @@ struct Scales {
   /// larger ones are each weighed with the gaps of the same scale, and with the number of such surroundings.  As it is, every patch
   /// counts as one that is independent of the others; of smooth surfaces the shape is the same over many patches.
   double share = 1;
-  /// Deviation of the gaps as a whole over that from their small surroundings: about 1 where sides of one break lie on each other, more
-  /// where surfaces that are alike bend away from each other.
+  /// Deviation of the gaps from a quadric over the whole break, which takes off what scans bend and scale, over that from their mean in
+  /// small surroundings: about 1 where sides of one break lie on each other, more where surfaces that are alike bend away from each other.
   double drift = 1;
+  double spread = 0;  ///< that deviation from a quadric, mesh units
 };
 
 /// The evidence with its drift, and less information where too little is left of it scale by scale, as where smooth surfaces fit each

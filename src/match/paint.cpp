@@ -23,7 +23,7 @@ std::optional<std::vector<std::string>> paint(Fragment& fragment, const std::str
   if (std::ranges::none_of(facets->segmentation.facets, &mesh::Facet::fracture))
     throw InputError(file, "has no break painted", "give every break a colour; grey is original surface");
   fragment.facets = std::move(facets->segmentation);
-  fragment.waviness = waviness(fragment.facets);
+  fragment.waviness = waviness(fragment.facets, fragment.diameter, fragment.resolution);
   std::vector<std::string> told;
   if (facets->left_out > 0) {
     told.push_back(fmt::format("{}: {} on too little of the surface to be a facet, left out", file,

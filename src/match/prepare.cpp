@@ -185,7 +185,7 @@ Fragment prepare(std::string path, mesh::Mesh scan, const Context& context) {
   fragment.middle = view_centre(fragment.coarse);
   clock.lap("coarse");
   fragment.facets = mesh::segment(matched, fragment.diameter);
-  fragment.waviness = waviness(fragment.facets);
+  fragment.waviness = waviness(fragment.facets, fragment.diameter, fragment.resolution);
   fragment.least_extent = mesh::least_extent(fragment.facets.samples.points);
   fragment.sample_of_face = mesh::sample_of_faces(fragment.facets, fragment.coarse);
   if (open) tell_pores(fragment, open->share);

@@ -12,11 +12,12 @@
 namespace rejoin::match {
 namespace {
 
-constexpr double kSteady = 2.0;  // degrees between the poses of either half of the samples, at most
-constexpr double kSlope = 0.75;  // strength that multiplies the odds by e
-constexpr double kAhead = 11.0;  // log-odds of a sure join over those of the pair's next pose, at least
-constexpr double kNext = 0.8;    // of the strength of a sure join, that of the pair's next pose, at most
-constexpr double kHeld = 0.6;    // of the distance between two pushed poses, what a sure join leaves at most
+constexpr double kSteady = 2.0;     // degrees between the poses of either half of the samples, at most
+constexpr double kSlope = 0.75;     // strength that multiplies the odds by e
+constexpr double kAhead = 11.0;     // log-odds of a sure join over those of the pair's next pose, at least
+constexpr double kNext = 0.8;       // of the strength of a sure join, that of the pair's next pose, at most
+constexpr double kRounding = 1e-6;  // strength: what at_most_even() held back has kEven
+constexpr double kHeld = 0.6;  // of the distance between two pushed poses, what a sure join leaves at most
 
 /// Whether the pair's next pose comes near: of large joints equal poses differ by more than kAhead by chance.
 bool has_rival(const Stability& stability) {
@@ -25,7 +26,7 @@ bool has_rival(const Stability& stability) {
 
 std::string told_rival(const Stability& stability) {
   if (stability.next_share > kNext) return "another pose of the two is nearly as good";
-  return fmt::format("another pose of the two is {:.1f} behind in log-odds, and {:.0f} are asked for a join",
+  return fmt::format("another pose of the two is {:.2f} behind in log-odds, and {:.0f} are asked for a join",
                      stability.margin, kAhead);
 }
 
@@ -58,6 +59,11 @@ std::string against(const Evidence& evidence, double score, const std::optional<
     if (stability->repeat_deg > kSteady)
       return fmt::format("either half of the break turns the pose by {:.1f} degrees", stability->repeat_deg);
     return "one piece slides along the other: nothing holds it there";
+  }
+  if (drifts(evidence) && std::abs(strength(evidence) - kEven) < kRounding) {
+    return fmt::format(
+        "the gap drifts over the break, by {:.2g}, and the scans stray by less: these are alike, or worn",
+        evidence.drift_spread);
   }
   const std::string found = objection(evidence);
   return found.empty() ? "the breaks have too little shape in common" : found;

@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kWallClear = 0.25;  // wall thicknesses next to the seam that are left out: worn edges lie
 constexpr double kOpen = 0.05;  // of the surface has nothing behind it, of a scan whose walls may be missing
-constexpr double kExplained = 3.0;      // deviations of both surfaces that sides of a break may lie apart by
+constexpr double kCannotTell = 0.2;     // tolerances: gap spread of joints as good as any
+constexpr double kExplained = 4.0;      // deviations of both surfaces that sides of a break may lie apart by
 constexpr double kTableCell = 2.0;      // spacings: side of the cells of tables of near points
 constexpr double kTableReach = 20.0;    // tolerances: how far a quick alignment looks
 constexpr double kEnough = 1.0 / 3.0;   // of the samples asked for, at least, where the other piece is
@@ -75,7 +76,7 @@ JointLengths lengths_of(const Fragment& a, const Fragment& b) {
   l.spacing = samples_spacing(a, b);
   l.tolerance = contact_tolerance(a, b);
   l.noise = 0.05 * scan;
-  l.explained = kExplained * std::hypot(a.waviness, b.waviness);
+  l.explained = std::max(kCannotTell * l.tolerance, kExplained * std::hypot(a.waviness, b.waviness));
   l.patch = std::max({0.5 * joint_ruler(a, b), 2.5 * l.spacing, 2.5 * scan});
   return l;
 }

@@ -85,7 +85,7 @@ struct JointLengths {
   double spacing = 0;    ///< of the sparser samples
   double tolerance = 0;  ///< distance below which surfaces touch
   double noise = 0;      ///< of the scans
-  /// Gap spread that the scans' errors explain at most; infinite where these are not known.
+  /// Gap spread that the scans' errors explain at most, or that tells nothing; infinite where these are not known.
   double explained = std::numeric_limits<double>::infinity();
   double patch = 0;  ///< side of a patch of surface whose relief is independent of the next one's
 
