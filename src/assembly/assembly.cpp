@@ -89,6 +89,7 @@ class Assembler {
   Result run(const Context& context) {
     Result result;
     grow(result, context);
+    const bool grown = !context.cancelled();
     result.placements.resize(pieces_.size());
     number_groups(result);
     context.report("align", 0.5);
@@ -100,12 +101,12 @@ class Assembler {
     std::stable_sort(result.joins.begin(), result.joins.end(),
                      [](const Join& x, const Join& y) { return x.score > y.score; });
     lay_out();
-    result.cancelled = context.cancelled();
     for (std::size_t k = 0; k < pieces_.size(); ++k) result.placements[k].pose = growth_.poses[k];
     tell_confidence(result);
-    tell_reasons(result);
+    tell_reasons(result, grown);
     tell_parted_objects(result);
     tell_broken_wishes(result);
+    result.cancelled = context.cancelled();
     return result;
   }
 
@@ -284,7 +285,7 @@ class Assembler {
     return join + fmt::format(" contradicts that of {{{}}} and {{{}}}", rejection.a, rejection.b);
   }
 
-  void tell_reasons(Result& result) const {
+  void tell_reasons(Result& result, bool grown) const {
     for (std::size_t k = 0; k < pieces_.size(); ++k) {
       Placement& placement = result.placements[k];
       if (placement.group >= 0) continue;
@@ -295,7 +296,7 @@ class Assembler {
         placement.reason = why(rejection, link);
       }
       if (placement.reason.empty())
-        placement.reason = result.cancelled ? "interrupted before it was put together" : best_of(k);
+        placement.reason = grown ? best_of(k) : "interrupted before it was put together";
     }
   }
 
@@ -314,6 +315,8 @@ class Assembler {
     if (best->score < match::kPossible)
       return fmt::format("nothing fits it: its best score with another fragment is {:.3f}", best->score);
     if (best->holds || best->score < options_.sure) return named("no join is sure: the best is with");
+    if (static_cast<std::size_t>(best - links_.data()) >= given_)
+      return named("no join is sure: the best follows from two other pairs alone, with");
     return named("no join is sure: the best is with") +
            ", but another pose of the two comes near, parts of their surfaces disagree on the pose, "
            "or one "

@@ -20,7 +20,7 @@ struct Link {
   Rigid pose;        ///< b's file coordinates -> a's file coordinates
   double score = 0;  ///< how likely they join so, 0 .. 1
   bool holds =
-      true;  ///< false if match::Stability casts doubt on it: however high the score, it needs a witness
+      true;  ///< false if match::Stability casts doubt on it, or was not asked: however high the score, it needs a witness
 };
 
 /// What the user knows.

@@ -65,12 +65,11 @@ std::vector<Link> combinations(const std::vector<Link>& links, std::size_t piece
   return result;
 }
 
-/// The likeliest, of those that decide something first.
-void keep_most(std::vector<Link>& guesses, std::size_t pieces) {
+/// Those that decide something first, the likeliest of them.
+void sort_by_worth(std::vector<Link>& guesses) {
   std::stable_sort(guesses.begin(), guesses.end(), [](const Link& x, const Link& y) {
     return std::tie(x.holds, y.score) < std::tie(y.holds, x.score);
   });
-  guesses.resize(std::min(guesses.size(), std::max(kMost, kMostOfPiece * pieces)));
 }
 
 class Completer {
@@ -127,17 +126,20 @@ class Completer {
 
 std::vector<Link> completed_triangles(const std::vector<Piece>& pieces, const std::vector<Link>& links,
                                       const Options& options, const Context& context) {
-  const std::vector<Link> all = combinations(links, pieces.size(), options.sure);
+  std::vector<Link> all = combinations(links, pieces.size(), options.sure);
+  sort_by_worth(all);
   const Completer completer(pieces, links, options);
-  std::vector<std::uint8_t> open(all.size());
-  parallel_for(all.size(), 16, [&](std::size_t first, std::size_t last) {
-    for (std::size_t k = first; k < last && !context.cancelled(); ++k)
-      open[k] = completer.is_open(all[k]) ? 1 : 0;
-  });
+  const std::size_t most = std::max(kMost, kMostOfPiece * pieces.size());
   std::vector<Link> guesses;
-  for (std::size_t k = 0; k < all.size(); ++k)
-    if (open[k] != 0) guesses.push_back(all[k]);
-  keep_most(guesses, pieces.size());
+  for (std::size_t next = 0; next < all.size() && guesses.size() < most; next += kMost) {
+    std::vector<std::uint8_t> open(std::min(kMost, all.size() - next));
+    parallel_for(open.size(), 16, [&](std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last && !context.cancelled(); ++k)
+        open[k] = completer.is_open(all[next + k]) ? 1 : 0;
+    });
+    for (std::size_t k = 0; k < open.size() && guesses.size() < most; ++k)
+      if (open[k] != 0) guesses.push_back(all[next + k]);
+  }
   std::vector<std::optional<Link>> found(guesses.size());
   parallel_for(guesses.size(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last && !context.cancelled(); ++k)

@@ -279,14 +279,15 @@ std::vector<Grower::Two> Grower::unsure_together(const State& state, const Conte
   struct End {
     const Proposal* proposal;
     std::size_t group;  // that it joins with the common one
+    double heard;       // of it alone
   };
   std::map<std::size_t, std::vector<End>> ends;  // by the common group
   for (std::size_t k = 0; k < unsure.size(); ++k) {
     if (!alone[k]) continue;  // nor would it fit with another
     const Link& link = links_[unsure[k]->link];
     const auto [g, h] = key_of(state.growth.group[link.a], state.growth.group[link.b]);
-    ends[g].push_back({unsure[k], h});
-    ends[h].push_back({unsure[k], g});
+    ends[g].push_back({unsure[k], h, alone[k]->all});
+    ends[h].push_back({unsure[k], g, alone[k]->all});
   }
   std::vector<Two> result;
   for (const auto& [common, list] : ends) {
@@ -294,8 +295,11 @@ std::vector<Grower::Two> Grower::unsure_together(const State& state, const Conte
       for (std::size_t y = x + 1; y < list.size(); ++y) {
         const Proposal& p = *list[x].proposal;
         const Proposal& q = *list[y].proposal;
-        if (list[x].group != list[y].group && p.certainty() + q.certainty() >= kTogetherWorth)
-          result.push_back({{p.link, q.link}, std::min({p.alone, q.alone, p.alone + q.alone})});
+        if (list[x].group == list[y].group || p.certainty() + q.certainty() < kTogetherWorth) continue;
+        const double one = p.alone + list[x].heard;
+        const double other = q.alone + list[y].heard;
+        result.push_back(
+            {{p.link, q.link}, std::min({one, other, one + other}) - list[x].heard - list[y].heard});
       }
     }
   }

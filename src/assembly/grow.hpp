@@ -95,7 +95,8 @@ class Grower {
   /// Two links that make three groups one.
   struct Two {
     std::array<std::size_t, 2> links;
-    double alone;  ///< log-odds of both by themselves, against that only one is true and that none is
+    double
+        alone;  ///< log-odds of both with what either hears alone, against that only one is true and that none is, less what both hear
   };
 
   /// One growth on its way.
