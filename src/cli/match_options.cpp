@@ -54,7 +54,9 @@ match::Options MatchOptions::values() const {
     throw UsageError(options.material_a ? "--material-b" : "--material-a", "is missing",
                      "give the material axis of both fragments");
   }
-  const bool any_direction = !options.directions_a.empty() || !options.directions_b.empty();
+  const bool any_facet = !options.facets_a.empty() || !options.facets_b.empty();
+  const bool any_direction = !options.directions_a.empty() || !options.directions_b.empty() ||
+                             (any_facet && options.search == match::Search::Esa);  // the facets' own
   options.constraint = constraint_.value_or(any_direction        ? match::Constraint::Direction
                                             : options.material_a ? match::Constraint::Material
                                                                  : match::Constraint::None);
@@ -67,7 +69,7 @@ match::Options MatchOptions::values() const {
                      "add them as x,y,z, or use --search esa, which takes those of the facets");
   }
   if (constraint_ == match::Constraint::None && (any_direction || options.material_a)) {
-    throw UsageError("--constraint none", "contradicts the directions that are given",
+    throw UsageError("--constraint none", "contradicts the directions or facets that are given",
                      "leave out one of the two");
   }
   require_effect(options);
@@ -77,13 +79,12 @@ match::Options MatchOptions::values() const {
 /// An option that changes nothing is a mistake: the user expects something of it.
 void MatchOptions::require_effect(const match::Options& options) const {
   const bool by_material = options.constraint == match::Constraint::Material || options.material_a;
-  const bool annealed_facets =
-      options.search == match::Search::Esa && !(options.facets_a.empty() && options.facets_b.empty());
-  const bool tolerated = options.constraint == match::Constraint::Direction || annealed_facets ||
+  const bool tolerated = options.constraint == match::Constraint::Direction ||
                          (by_material && options.search == match::Search::Sweep);
   if (tolerance_->count() > 0 && !tolerated) {
-    throw UsageError("--tolerance", "has no direction that it could be of",
-                     "add --direction-a or --direction-b, or leave it out");
+    throw UsageError(
+        "--tolerance", "has no direction that it could be of",
+        "add --direction-a or --direction-b (with --search esa facets will do), or leave it out");
   }
   const auto require_one = [](const std::vector<int>& facets, const std::vector<glm::dvec3>& directions,
                               const char* facets_name, const char* directions_name) {
