@@ -14,7 +14,6 @@
 #include "match/align.hpp"
 #include "match/detail/joint_sides.hpp"
 #include "match/detail/shape.hpp"
-#include "mesh/neighbours.hpp"
 
 namespace rejoin::match {
 namespace {
@@ -99,8 +98,9 @@ class Look {
     if (!contact.has_shape()) return {};
     const std::vector<double> heights =
         heights_above_quadric(contact.core, glm::normalize(contact.normal), kQuadricRounds);
-    const std::array relief = variances_by_scale(contact.core, heights);
-    const std::array gaps = variances_by_scale(contact.core, contact.core_gaps);
+    const std::array radii{kScales[0] * lengths_.patch, kScales[1] * lengths_.patch};
+    const std::vector<double> relief = detail::variances_by_scale(contact.core, heights, radii);
+    const std::vector<double> gaps = detail::variances_by_scale(contact.core, contact.core_gaps, radii);
     const double noise = lengths_.noise * lengths_.noise;
     const double spread = robust_deviation(gaps_above_quadric(contact));
     const double drift = gaps.front() > 0.0 ? spread / std::sqrt(gaps.front()) : 1.0;
@@ -209,27 +209,6 @@ class Look {
     for (std::size_t i = 0; i < raised.size(); ++i)
       raised[i] += (contact.core_gaps[i] - glm::dot(raised[i], normal)) * normal;
     return heights_above_quadric(raised, normal, kQuadricRounds);
-  }
-
-  /// Squared robust deviations of values at points from their means over the surroundings, from the smallest scale to the whole.
-  std::array<double, kScales.size() + 1> variances_by_scale(const std::vector<glm::dvec3>& points,
-                                                            const std::vector<double>& values) const {
-    const std::vector<glm::vec3> places(points.begin(), points.end());
-    std::array<double, kScales.size() + 1> variances{};
-    std::vector<std::uint32_t> near;
-    for (std::size_t k = 0; k < kScales.size(); ++k) {
-      const mesh::Neighbours neighbours(places, static_cast<float>(kScales[k] * lengths_.patch));
-      std::vector<double> left = values;
-      for (std::size_t i = 0; i < places.size(); ++i) {
-        neighbours.of(places[i], near);
-        double sum = 0.0;
-        for (const auto j : near) sum += values[j];
-        left[i] -= sum / static_cast<double>(near.size());
-      }
-      variances[k] = std::pow(robust_deviation(std::move(left)), 2.0);
-    }
-    variances.back() = std::pow(robust_deviation(values), 2.0);
-    return variances;
   }
 
   void look_for_penetration(Evidence& e) const {

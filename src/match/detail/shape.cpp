@@ -3,11 +3,14 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "core/median.hpp"
 #include "core/rigid.hpp"
 #include "core/tukey.hpp"
+#include "mesh/neighbours.hpp"
 
 namespace rejoin::match::detail {
 namespace {
@@ -59,6 +62,26 @@ std::vector<double> heights_above_quadric(const std::vector<glm::dvec3>& points,
   }
   for (double& height : rest) height *= size;
   return rest;
+}
+
+std::vector<double> variances_by_scale(const std::vector<glm::dvec3>& points,
+                                       const std::vector<double>& values, std::span<const double> radii) {
+  const std::vector<glm::vec3> places(points.begin(), points.end());
+  std::vector<double> variances;
+  std::vector<std::uint32_t> near;
+  for (const double radius : radii) {
+    const mesh::Neighbours neighbours(places, static_cast<float>(radius));
+    std::vector<double> left = values;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      neighbours.of(places[i], near);
+      double sum = 0.0;
+      for (const auto j : near) sum += values[j];
+      left[i] -= sum / static_cast<double>(near.size());
+    }
+    variances.push_back(std::pow(robust_deviation(std::move(left)), 2.0));
+  }
+  variances.push_back(std::pow(robust_deviation(values), 2.0));
+  return variances;
 }
 
 glm::dvec3 middle(const std::vector<glm::dvec3>& points) {

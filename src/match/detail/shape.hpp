@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 namespace rejoin::match::detail {
@@ -13,6 +14,13 @@ double robust_deviation(std::vector<double> values);
 /// \param normal  unit
 std::vector<double> heights_above_quadric(const std::vector<glm::dvec3>& points, const glm::dvec3& normal,
                                           int rounds);
+
+/// Squared robust deviations of values at points from their means over the surroundings of each radius, and over all.
+/// \param values  as many as points
+/// \param radii   ascending
+/// \return one more than radii
+std::vector<double> variances_by_scale(const std::vector<glm::dvec3>& points,
+                                       const std::vector<double>& values, std::span<const double> radii);
 
 /// Mean of points.
 glm::dvec3 middle(const std::vector<glm::dvec3>& points);
