@@ -318,9 +318,9 @@ class Assembler {
     if (static_cast<std::size_t>(best - links_.data()) >= given_)
       return named("no join is sure: the best follows from two other pairs alone, with");
     return named("no join is sure: the best is with") +
-           ", but another pose of the two comes near, parts of their surfaces disagree on the pose, "
-           "or one "
-           "slides along the other";
+           ", but another pose of the two comes near, parts of their surfaces disagree on the pose, or one "
+           "slides "
+           "along the other";
   }
 
   /// Sure joins between two objects that cannot lie as they say, the strongest of each two: often a second scan of pieces makes an

@@ -98,7 +98,7 @@ class Completer {
     const double score =
         match::score_of(match::strength(match::weigh(joint.agreed_evidence(fine), joint, fine)));
     if (score < kLikely) return std::nullopt;
-    // No search told what else these two would do, nor was it probed: the pair it came from is to bear witness.
+    // No search told what else these two would do, nor was it probed: the pairs it follows from bear witness.
     const Link link{guess.a, guess.b, match::to_files(a.fragment(), b.fragment(), fine), score, false};
     const bool stayed = same_pose(a, b, guess.pose, link.pose, options_);
     if (!stayed || is_known(link) || interpenetrate(a, b, link.pose)) return std::nullopt;
