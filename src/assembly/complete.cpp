@@ -43,8 +43,13 @@ std::map<Key, std::vector<Link>> best_links(const std::vector<Link>& links) {
   return result;
 }
 
-/// All combinations a-k, k-b with a < b; `score` is the product of both, and two sure links hold: they put all three together anyhow.
-std::vector<Link> combinations(const std::vector<Link>& links, std::size_t pieces, double sure) {
+/// A combination a-k, k-b of two links.
+struct Guess {
+  Link link;     ///< a-b, a < b; `score` is the product of both
+  bool decides;  ///< false if both are sure: they put all three together anyhow
+};
+
+std::vector<Guess> combinations(const std::vector<Link>& links, std::size_t pieces, double sure) {
   std::vector<std::vector<Link>> from(pieces);  // by its a
   for (const auto& [key, list] : best_links(links)) {
     for (const Link& link : list) {
@@ -52,13 +57,13 @@ std::vector<Link> combinations(const std::vector<Link>& links, std::size_t piece
       from[link.b].push_back(turned(link));
     }
   }
-  std::vector<Link> result;
+  std::vector<Guess> result;
   for (const auto& around : from) {
     for (const Link& x : around) {
       for (const Link& y : around) {
         if (x.b >= y.b) continue;
         const bool both_sure = x.holds && y.holds && std::min(x.score, y.score) >= sure;
-        result.push_back({x.b, y.b, inverse(x.pose) * y.pose, x.score * y.score, both_sure});
+        result.push_back({{x.b, y.b, inverse(x.pose) * y.pose, x.score * y.score}, !both_sure});
       }
     }
   }
@@ -66,9 +71,9 @@ std::vector<Link> combinations(const std::vector<Link>& links, std::size_t piece
 }
 
 /// Those that decide something first, the likeliest of them.
-void sort_by_worth(std::vector<Link>& guesses) {
-  std::stable_sort(guesses.begin(), guesses.end(), [](const Link& x, const Link& y) {
-    return std::tie(x.holds, y.score) < std::tie(y.holds, x.score);
+void sort_by_worth(std::vector<Guess>& guesses) {
+  std::stable_sort(guesses.begin(), guesses.end(), [](const Guess& x, const Guess& y) {
+    return std::tie(y.decides, y.link.score) < std::tie(x.decides, x.link.score);
   });
 }
 
@@ -126,7 +131,7 @@ class Completer {
 
 std::vector<Link> completed_triangles(const std::vector<Piece>& pieces, const std::vector<Link>& links,
                                       const Options& options, const Context& context) {
-  std::vector<Link> all = combinations(links, pieces.size(), options.sure);
+  std::vector<Guess> all = combinations(links, pieces.size(), options.sure);
   sort_by_worth(all);
   const Completer completer(pieces, links, options);
   const std::size_t most = std::max(kMost, kMostOfPiece * pieces.size());
@@ -135,10 +140,10 @@ std::vector<Link> completed_triangles(const std::vector<Piece>& pieces, const st
     std::vector<std::uint8_t> open(std::min(kMost, all.size() - next));
     parallel_for(open.size(), 16, [&](std::size_t first, std::size_t last) {
       for (std::size_t k = first; k < last && !context.cancelled(); ++k)
-        open[k] = completer.is_open(all[next + k]) ? 1 : 0;
+        open[k] = completer.is_open(all[next + k].link) ? 1 : 0;
     });
     for (std::size_t k = 0; k < open.size() && guesses.size() < most; ++k)
-      if (open[k] != 0) guesses.push_back(all[next + k]);
+      if (open[k] != 0) guesses.push_back(all[next + k].link);
   }
   std::vector<std::optional<Link>> found(guesses.size());
   parallel_for(guesses.size(), 1, [&](std::size_t first, std::size_t last) {

@@ -49,7 +49,7 @@ ConstraintPlan plan_constraints(const Options& options) {
   }
   ConstraintPlan plan;
   plan.directions = options.constraint == Constraint::Direction || !options.directions_a.empty() ||
-                    !options.directions_b.empty() || !options.facets_a.empty() || !options.facets_b.empty();
+                    !options.directions_b.empty();
   if (axes) plan.material = plan.directions ? MaterialUse::Bias : MaterialUse::Restrict;
   return plan;
 }

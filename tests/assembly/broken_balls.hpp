@@ -36,6 +36,12 @@ struct Box {
     for (const shatter::Contact& c : ball.contacts) contacts.push_back({first + c.a, first + c.b, c.area});
   }
 
+  bool touch(std::size_t a, std::size_t b) const {
+    return std::any_of(contacts.begin(), contacts.end(), [&](const shatter::Contact& c) {
+      return c.a == std::min(a, b) && c.b == std::max(a, b);
+    });
+  }
+
   Rigid truth(std::size_t a, std::size_t b) const { return inverse(to_world[a]) * to_world[b]; }
 
   Link true_link(std::size_t a, std::size_t b, double score) const { return {a, b, truth(a, b), score}; }
@@ -113,17 +119,23 @@ struct Corner {
 };
 
 inline Corner corner_of(const Box& box) {
-  const auto touch = [&](std::size_t x, std::size_t y) {
-    return std::any_of(box.contacts.begin(), box.contacts.end(),
-                       [&](const auto& c) { return c.a == std::min(x, y) && c.b == std::max(x, y); });
-  };
   for (const auto& contact : box.contacts) {
     for (std::size_t c = 0; c < box.fragments.size(); ++c) {
-      if (c != contact.a && c != contact.b && touch(contact.a, c) && touch(contact.b, c)) {
+      if (c != contact.a && c != contact.b && box.touch(contact.a, c) && box.touch(contact.b, c)) {
         return {contact.a, contact.b, c};
       }
     }
   }
+  return {0, 0, 0};
+}
+
+/// Three pieces in a row: the first and the last do not touch.
+inline Corner row_of(const Box& box) {
+  const std::size_t count = box.fragments.size();
+  for (std::size_t b = 0; b < count; ++b)
+    for (std::size_t a = 0; a < count; ++a)
+      for (std::size_t c = a + 1; c < count; ++c)
+        if (box.touch(a, b) && box.touch(b, c) && !box.touch(a, c)) return {a, b, c};
   return {0, 0, 0};
 }
 

@@ -39,14 +39,6 @@ std::vector<double> random_point(const SearchSpace& space, Random& random) {
   return point;
 }
 
-// Else facets that the user gives would change nothing in an annealed search.
-TEST(Constraints, GivenFacetsGiveDirections) {
-  Options options;
-  EXPECT_FALSE(plan_constraints(options).directions);
-  options.facets_b = {1};
-  EXPECT_TRUE(plan_constraints(options).directions);
-}
-
 TEST(Constraints, FigureElevensRules) {
   struct Row {
     Constraint constraint;

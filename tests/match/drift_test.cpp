@@ -65,6 +65,14 @@ TEST(Waviness, IsNotThatOfASmallFilledHole) {
   EXPECT_GT(prepared(part(true, filled)).waviness, 0.6 * kWave);
 }
 
+// As of a base that was closed by a plane.
+TEST(Waviness, IsNotThatOfAnExactPlane) {
+  mesh::Mesh scan = part(true, waves);
+  for (glm::vec3& v : scan.vertices)
+    if (v.z < -1.85F) v.z = -2.0F;
+  EXPECT_GT(prepared(scan).waviness, 0.6 * kWave);
+}
+
 // The sum of two waves has the deviation kWave; the robust one of it is a tenth less.
 TEST(Waviness, IsTheDeviationOfWaves) {
   const double told = prepared(part(true, waves)).waviness;
