@@ -47,7 +47,7 @@ const match::Fragment& Shelf::get(const std::string& name) {
   if (known != fragments_.end()) return known->second;
   const std::filesystem::path path = set_.folder / name;
   mesh::Loaded loaded = mesh::load(path);
-  return fragments_.emplace(name, match::prepare(path.string(), std::move(loaded.mesh), Context()))
+  return fragments_.emplace(name, match::prepare_as_kept(path.string(), std::move(loaded.mesh), Context()))
       .first->second;
 }
 

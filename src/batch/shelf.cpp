@@ -84,14 +84,12 @@ mesh::Mesh read_and_keep(const store::Fragment& fragment, const fs::path& cache,
   }
   warnings = std::move(loaded.warnings);
   require_body(loaded.mesh, fragment.path);
-  keep(kept_file(fragment, cache), match::surface_of(fragment.path, std::move(loaded.mesh)));
-  std::optional<mesh::Mesh> surface = read_if_whole(kept_file(fragment, cache));
-  if (!surface)
-    throw InputError(fragment.path, "has no surface left where it is kept to a millionth of its size",
-                     "remove vertices far from the rest");
+  const mesh::Mesh surface = match::surface_of(fragment.path, std::move(loaded.mesh));
+  mesh::Mesh kept = mesh::as_kept(surface, fragment.path);
+  keep(kept_file(fragment, cache), surface);
   std::error_code ignored;
   for (const fs::path& file : kept_by_others(fragment, cache)) fs::remove(file, ignored);
-  return std::move(*surface);
+  return kept;
 }
 
 struct Outcome {

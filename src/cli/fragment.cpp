@@ -37,7 +37,7 @@ match::Fragment read_and_prepare(const std::string& path, Console& console, cons
   Stopwatch clock(stages);
   mesh::Loaded scan = load_scan(path, console);
   clock.lap("load");
-  match::Fragment fragment = match::prepare(path, std::move(scan.mesh), context);
+  match::Fragment fragment = match::prepare_as_kept(path, std::move(scan.mesh), context);
   for (const std::string& warning : fragment.warnings) console.warning(warning);
   fragment.warnings.insert(fragment.warnings.begin(), scan.warnings.begin(), scan.warnings.end());
   fragment.stages.insert(fragment.stages.begin(), stages.begin(), stages.end());

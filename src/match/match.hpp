@@ -109,6 +109,11 @@ mesh::Mesh surface_of(const std::string& path, mesh::Mesh scan);
 /// \throws InputError  as surface_of()
 Fragment prepare(std::string path, mesh::Mesh scan, const Context& context);
 
+/// The same from the surface as `rejoin batch` keeps it, so that facets have the same numbers and joints the same scores there:
+/// these depend a little on the order of the vertices.
+/// \throws InputError  as surface_of(), or as mesh::as_kept()
+Fragment prepare_as_kept(std::string path, mesh::Mesh scan, const Context& context);
+
 /// Poses B -> A in the files' coordinates and relative to the meshes' origins, where the matcher computes.
 Rigid to_origins(const Fragment& a, const Fragment& b, const Rigid& in_files);
 Rigid to_files(const Fragment& a, const Fragment& b, const Rigid& at_origins);

@@ -13,6 +13,7 @@
 #include "mesh/flaps.hpp"
 #include "mesh/noise.hpp"
 #include "mesh/pores.hpp"
+#include "mesh/save.hpp"
 #include "mesh/smooth.hpp"
 #include "mesh/surface.hpp"
 #include "mesh/table.hpp"
@@ -155,6 +156,16 @@ mesh::Mesh surface_of(const std::string& path, mesh::Mesh scan) {
     throw InputError(path, "no surface could be laid through its points", "scan it more densely");
   }
   return surface;
+}
+
+Fragment prepare_as_kept(std::string path, mesh::Mesh scan, const Context& context) {
+  std::vector<StageTime> stages;
+  Stopwatch clock(stages);
+  mesh::Mesh kept = mesh::as_kept(surface_of(path, std::move(scan)), path);
+  clock.lap("keep");
+  Fragment fragment = prepare(std::move(path), std::move(kept), context);
+  fragment.stages.insert(fragment.stages.begin(), stages.begin(), stages.end());
+  return fragment;
 }
 
 Fragment prepare(std::string path, mesh::Mesh scan, const Context& context) {

@@ -52,6 +52,11 @@ std::vector<Placed> near_the_origin(std::vector<Placed> parts) {
   return parts;
 }
 
+std::string encode_draco(const std::vector<Placed>& parts, const std::string& name) {
+  const detail::Soup soup = merged(parts);
+  return detail::encode_draco(soup, detail::is_far(soup), name);
+}
+
 std::string encode(const std::filesystem::path& path, const std::vector<Placed>& parts) {
   const std::string extension = extension_of(path);
   if (extension == ".glb") {
@@ -61,10 +66,7 @@ std::string encode(const std::filesystem::path& path, const std::vector<Placed>&
   }
   if (extension == ".ply") return detail::write_ply(merged(parts));
   if (extension == ".obj") return detail::write_obj(merged(parts));
-  if (extension == ".drc") {
-    const detail::Soup soup = merged(parts);
-    return detail::encode_draco(soup, detail::is_far(soup), path.string());
-  }
+  if (extension == ".drc") return encode_draco(parts, path.string());
   throw InputError(path.string(), "cannot save as \"" + extension + "\"", "use one of .ply .obj .glb .drc");
 }
 
@@ -72,6 +74,16 @@ std::string encode(const std::filesystem::path& path, const std::vector<Placed>&
 
 void save(const std::filesystem::path& path, const Mesh& mesh) {
   save_scene(path, {Placed{path.stem().string(), &mesh, Rigid{}}});
+}
+
+Mesh as_kept(const Mesh& mesh, const std::string& name) {
+  const std::string bytes = encode_draco({Placed{name, &mesh, Rigid{}}}, name);
+  try {
+    return detail::clean(detail::decode_draco(bytes, name), name).mesh;
+  } catch (const InputError&) {
+    throw InputError(name, "has no surface left where it is kept to a millionth of its size",
+                     "remove vertices far from the rest");
+  }
 }
 
 void save_scene(const std::filesystem::path& path, const std::vector<Placed>& parts) {

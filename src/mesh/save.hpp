@@ -34,6 +34,11 @@ struct Placed {
 /// \throws IoError the file cannot be written
 void save(const std::filesystem::path& path, const Mesh& mesh);
 
+/// What save() to a .drc and load() would give back: `rejoin batch` keeps its scans so.
+/// \param name  for messages
+/// \throws InputError  next to nothing is left at a millionth of its size
+Mesh as_kept(const Mesh& mesh, const std::string& name);
+
 /// Writes several placed meshes: .glb gives one named node a mesh, with its transform; .ply and .obj give one
 /// merged mesh.  In a .glb, the first mesh's origin comes to zero if it is farther from it than kFarFromOrigin.
 void save_scene(const std::filesystem::path& path, const std::vector<Placed>& parts);

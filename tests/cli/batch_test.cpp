@@ -128,6 +128,26 @@ TEST_F(Batch, SecondRunDoesNothing) {
   EXPECT_NE(again.out.find("0 of them now"), std::string::npos) << again.out;
 }
 
+TEST_F(Batch, CandidatesAreThoseOfMatch) {
+  const std::string answer = folder_ / "match.json";
+  ASSERT_EQ(run({"match", scans() + "/a7.ply", scans() + "/b7.ply", "--json", answer}).exit_code, 0);
+  SQLite::Database database(*home_ / "undisturbed/run.sqlite", SQLite::OPEN_READONLY);
+  SQLite::Statement kept(
+      database,
+      "SELECT c.score, c.facet_a, c.facet_b, c.m14 FROM candidate c JOIN fragment x ON x.id = c.a "
+      "JOIN fragment y ON y.id = c.b WHERE x.name = 'a7.ply' AND y.name = 'b7.ply' ORDER BY c.rank");
+  const json candidates = json::parse(read_file(answer)).at("candidates");
+  ASSERT_FALSE(candidates.empty());
+  for (const json& candidate : candidates) {
+    ASSERT_TRUE(kept.executeStep());
+    EXPECT_EQ(candidate.at("score"), kept.getColumn(0).getDouble());
+    EXPECT_EQ(candidate.at("facet_a"), kept.getColumn(1).getInt());
+    EXPECT_EQ(candidate.at("facet_b"), kept.getColumn(2).getInt());
+    EXPECT_EQ(candidate.at("pose").at(0).at(3), kept.getColumn(3).getDouble());
+  }
+  EXPECT_FALSE(kept.executeStep());
+}
+
 TEST_F(Batch, AllPairsOfFewScansAreSearchedInFull) {
   EXPECT_EQ(
       stages_in(*home_ / "undisturbed"),
