@@ -15,7 +15,7 @@ namespace {
 constexpr double kRadius = 1.5;    // wall thicknesses, three patches of a joint (JointLengths::patch)
 constexpr double kOfSize = 0.15;   // of the piece: as the walls of a small sherd of a thick vessel
 constexpr double kSpacings = 7.5;  // of samples or of the scan's points, three patches of solid pieces
-constexpr std::size_t kPlaces = 300;
+constexpr std::size_t kPlaces = 1000;
 constexpr std::size_t kLeastPlaces = 5;
 constexpr double kSurrounded = 0.7;  // of a disc's area, by surface
 constexpr float kAlike = 0.7F;       // normals differ by at most 45 degrees

@@ -11,7 +11,7 @@ namespace {
 constexpr double kWallClear = 0.25;  // wall thicknesses next to the seam that are left out: worn edges lie
 constexpr double kOpen = 0.05;  // of the surface has nothing behind it, of a scan whose walls may be missing
 constexpr double kCannotTell = 0.2;     // tolerances: gap spread of joints as good as any
-constexpr double kExplained = 4.0;      // deviations of both surfaces that sides of a break may lie apart by
+constexpr double kExplained = 5.0;      // deviations of both surfaces that sides of a break may lie apart by
 constexpr double kTableCell = 2.0;      // spacings: side of the cells of tables of near points
 constexpr double kTableReach = 20.0;    // tolerances: how far a quick alignment looks
 constexpr double kEnough = 1.0 / 3.0;   // of the samples asked for, at least, where the other piece is
