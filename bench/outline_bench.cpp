@@ -65,7 +65,7 @@ void plain(benchmark::State& state) {
       broken_tiles(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
   std::vector<std::vector<ScaleSignal>> scales;
   for (const Piece& piece : pieces) scales.push_back(scale_space(piece.outline.points, {1.4, 1}));
-  const double usual = detail::usual_turning(scales, 0);
+  const double usual = detail::usual_turning(scales, 0, any_of_pixels(pieces));
   std::vector<detail::Coded> coded;
   for (const auto& piece : scales) coded.push_back(detail::encode(piece[0], usual));
   const MultiscaleLevel level = default_level();

@@ -171,7 +171,7 @@ std::vector<CalibratedLevel> calibrate(const std::vector<Piece>& pieces, const s
   for (std::size_t k = 0; k < static_cast<std::size_t>(options.scales) && !context.cancelled(); ++k) {
     context.report("calibrating", static_cast<double>(k) / options.scales);
     Level level;
-    const double usual = detail::usual_turning(scales, k);
+    const double usual = detail::usual_turning(scales, k, any_of_pixels(pieces));
     for (const auto& piece : scales) {
       level.signals.push_back(&piece[k]);
       level.coded.push_back(detail::encode(piece[k], usual));

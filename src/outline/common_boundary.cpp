@@ -45,7 +45,7 @@ class Growth {
       const Block back = block(1);
       const bool take_front = front_open && (!back_open || front.cost < back.cost);
       const Block& next = take_front ? front : back;
-      if (within(next.cost)) {
+      if (within(next)) {
         for (const Meeting& m : next.meetings) take_front ? add_front(m) : add_back(m);
       } else {
         (take_front ? front_open : back_open) = false;
@@ -141,17 +141,20 @@ class Growth {
     return best;
   }
 
-  /// Whether a block more keeps the earth mover's cost within the limit.  The meetings so far are one way to move the
+  /// Whether a block more keeps the earth mover's cost within the limit.  The meetings are one way to move the
   /// sand, so their cost is an upper bound that grows with each block; only where it fails are all ways looked at.
-  bool within(double more) {
-    const double bound = a_.step * options_.weights.property * (sum_ + more) / M_PI;
+  bool within(const Block& next) {
+    const double bound = a_.step * options_.weights.property * (sum_ + next.cost) / M_PI;
     if (bound <= limit_) return true;
     if (solved_ >= options_.most_solved) return false;
     ++solved_;
-    const auto count = static_cast<std::size_t>(meetings_.back().a - meetings_.front().a + 1);
-    const auto count_b = static_cast<std::size_t>(std::max(1L, meetings_.back().b - meetings_.front().b + 1));
-    const Sand sand_a(a_, meetings_.front().a, count, options_.bins);
-    const Sand sand_b(b_, meetings_.front().b, count_b, options_.bins);
+    const Meeting& outmost = next.meetings.back();
+    const long first_a = std::min(meetings_.front().a, outmost.a);
+    const long first_b = std::min(meetings_.front().b, outmost.b);
+    const auto count = static_cast<std::size_t>(std::max(meetings_.back().a, outmost.a) - first_a + 1);
+    const auto count_b = static_cast<std::size_t>(std::max(meetings_.back().b, outmost.b) - first_b + 1);
+    const Sand sand_a(a_, first_a, count, options_.bins);
+    const Sand sand_b(b_, first_b, count_b, options_.bins);
     const double length = a_.step * static_cast<double>(std::max(count, count_b));
     return transport_within(sand_a, sand_b, options_.weights, limit_ / length);
   }

@@ -5,6 +5,7 @@
 
 #include "core/cyclic.hpp"
 #include "core/error.hpp"
+#include "core/median.hpp"
 #include "core/parallel.hpp"
 #include "outline/contact.hpp"
 #include "outline/detail/odds.hpp"
@@ -50,7 +51,9 @@ class EmdMatcher final : public Matcher {
   void prepare(const std::vector<Piece>& pieces) override {
     scales_.clear();
     if (pieces.empty()) return;
-    const double length = median_perimeter(pieces);
+    perimeters_.clear();
+    for (const Piece& piece : pieces) perimeters_.push_back(perimeter(piece.outline.points));
+    const double length = median(perimeters_);
     if (!(length > 0.0)) throw InputError(pieces[0].name, "has a border of no length", "give an outline");
     for (const double samples : options_.samples) {
       std::vector<std::unique_ptr<ScaledPiece>> scaled(pieces.size());
@@ -68,6 +71,16 @@ class EmdMatcher final : public Matcher {
   }
 
   PairResult match(std::size_t a, std::size_t b, const Context& context) const override {
+    // The stretches grow along the first border, and B is laid on A: the answer must not depend on which comes first.
+    if (perimeters_[a] <= perimeters_[b]) return match_in_order(a, b, context);
+    PairResult result = match_in_order(b, a, context);
+    for (JoinCandidate& candidate : result.candidates)
+      candidate = exchanged(candidate, perimeters_[b], perimeters_[a]);
+    return result;
+  }
+
+ private:
+  PairResult match_in_order(std::size_t a, std::size_t b, const Context& context) const {
     PairResult result;
     for (const auto& scale : scales_) {
       if (context.cancelled()) break;
@@ -79,7 +92,6 @@ class EmdMatcher final : public Matcher {
     return result;
   }
 
- private:
   void match_scale(const ScaledPiece& a, const ScaledPiece& b, std::vector<JoinCandidate>& found) const {
     MomentOptions moment_options;
     moment_options.most = options_.moments;
@@ -170,6 +182,7 @@ class EmdMatcher final : public Matcher {
   EmdOptions options_;
   Measure measure_;
   std::vector<std::vector<std::unique_ptr<ScaledPiece>>> scales_;
+  std::vector<double> perimeters_;
 };
 
 }  // namespace

@@ -17,7 +17,7 @@ struct PairedPlaces {
   double on_b = 0.0;
 };
 
-/// The finest scale that the pieces' own samples allow, file units: about two of them, on long borders more.
+/// The finest scale that the pieces' own samples allow, file units: about two of them, on long borders more, of simplified outlines less.
 /// \pre not empty, all with a border
 double automatic_step(const std::vector<Piece>& pieces);
 

@@ -55,6 +55,7 @@ class LcsMatcher final : public Matcher {
   void prepare(const std::vector<Piece>& pieces) override {
     scales_.clear();
     ends_.clear();
+    perimeters_.clear();
     if (pieces.empty()) return;
     for (const Piece& piece : pieces) {
       if (piece.outline.points.size() < 3 || !(perimeter(piece.outline.points) > 0.0))
@@ -64,11 +65,24 @@ class LcsMatcher final : public Matcher {
     scales_.reserve(static_cast<std::size_t>(options_.scales));
     for (int k = 0; k < options_.scales; ++k, step *= kCoarser) scales_.emplace_back(pieces, options_, step);
     ends_.reserve(pieces.size());
-    for (const Piece& piece : pieces)
+    perimeters_.reserve(pieces.size());
+    for (const Piece& piece : pieces) {
+      perimeters_.push_back(perimeter(piece.outline.points));
       ends_.push_back({piece.outline.points.front(), piece.outline.points[piece.outline.points.size() / 2]});
+    }
   }
 
   PairResult match(std::size_t a, std::size_t b, const Context& context) const override {
+    // B is laid on A, which keeps its samples: the answer must not depend on which comes first.
+    if (perimeters_[a] <= perimeters_[b]) return match_in_order(a, b, context);
+    PairResult result = match_in_order(b, a, context);
+    for (JoinCandidate& candidate : result.candidates)
+      candidate = exchanged(candidate, perimeters_[b], perimeters_[a]);
+    return result;
+  }
+
+ private:
+  PairResult match_in_order(std::size_t a, std::size_t b, const Context& context) const {
     std::vector<LcsFit> found;
     for (const LcsScale& scale : scales_) {
       const std::size_t before = found.size();
@@ -81,7 +95,6 @@ class LcsMatcher final : public Matcher {
     return distinct(std::move(found), ends_[b]);
   }
 
- private:
   /// Best first; a pose that lays B's ends nearly where a better one does is the same.
   PairResult distinct(std::vector<LcsFit> found, const std::pair<glm::dvec2, glm::dvec2>& ends) const {
     std::stable_sort(found.begin(), found.end(),
@@ -105,6 +118,7 @@ class LcsMatcher final : public Matcher {
   LcsOptions options_;
   std::vector<LcsScale> scales_;                         ///< finest first
   std::vector<std::pair<glm::dvec2, glm::dvec2>> ends_;  ///< two points of each piece far from each other
+  std::vector<double> perimeters_;
 };
 
 }  // namespace

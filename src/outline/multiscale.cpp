@@ -129,7 +129,8 @@ class Multiscale final : public Matcher {
   void encode_all() {
     coded_.assign(signals_.size(), {});
     for (std::size_t k = 0; k < static_cast<std::size_t>(all_scales_); ++k) {
-      const double usual = detail::usual_turning(std::span(signals_).first(pieces_->size()), k);
+      const double usual =
+          detail::usual_turning(std::span(signals_).first(pieces_->size()), k, any_of_pixels(*pieces_));
       for (std::size_t i = 0; i < signals_.size(); ++i)
         coded_[i].push_back(detail::encode(signals_[i][k], usual));
     }

@@ -1,6 +1,7 @@
 #include "outline/outline.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/median.hpp"
 
@@ -15,6 +16,25 @@ Planar inverse(const Planar& a) {
   Planar back{a.flipped ? a.angle_rad : -a.angle_rad, {}, a.flipped};
   back.translation = -back.direction(a.translation);
   return back;
+}
+
+bool any_of_pixels(const std::vector<Piece>& pieces) {
+  return std::any_of(pieces.begin(), pieces.end(),
+                     [](const Piece& piece) { return piece.outline.of_pixels; });
+}
+
+JoinCandidate exchanged(const JoinCandidate& join, double perimeter_a, double perimeter_b) {
+  const auto on_border = [](double place, double perimeter) {
+    return place - std::floor(place / perimeter) * perimeter;
+  };
+  const Boundary& met = join.boundary;
+  const Boundary boundary{
+      .begin_a = join.pose.flipped ? met.begin_b : on_border(met.begin_b - met.length, perimeter_b),
+      .begin_b = join.pose.flipped ? met.begin_a : on_border(met.begin_a + met.length, perimeter_a),
+      .length = met.length,
+      .hole_a = met.hole_b,
+      .hole_b = met.hole_a};
+  return {inverse(join.pose), join.score, boundary};
 }
 
 double angle_between(const Planar& a, const Planar& b) {

@@ -119,6 +119,13 @@ struct JoinCandidate {
   Boundary boundary;   ///< where the two meet; see join_areas() for what lies between and over each other
 };
 
+/// Whether some are from pictures.
+bool any_of_pixels(const std::vector<Piece>& pieces);
+
+/// The same join as A on B.
+/// \param perimeter_a  of the border along which it runs
+JoinCandidate exchanged(const JoinCandidate& join, double perimeter_a, double perimeter_b);
+
 /// A false join's score is hardly ever this high.
 inline constexpr double kSureScore = 0.7;
 

@@ -18,7 +18,7 @@ using Polygon = std::vector<glm::dvec2>;
 /// A loop with more than this share of the area is no slip of the pen.
 constexpr double kMostLoopArea = 0.02;
 constexpr std::size_t kLeastPoints = 4;
-/// With more loops the file is no outline.
+/// With more loops, and more than one at every fourth point, the file is no outline.
 constexpr std::size_t kMostLoops = 500;
 
 /// Edges sorted into square cells, so that only near ones are compared.
@@ -97,25 +97,117 @@ Polygon without_repeats(const Polygon& polygon) {
   return result;
 }
 
-/// The polygon without the smaller of the two loops at the crossing.
-Polygon cut_loop(const Polygon& polygon, const Crossing& at, const std::string& subject) {
-  const auto begin = polygon.begin();
-  Polygon inner(begin + static_cast<std::ptrdiff_t>(at.first) + 1,
-                begin + static_cast<std::ptrdiff_t>(at.second) + 1);
-  inner.push_back(at.point);
-  Polygon outer(begin, begin + static_cast<std::ptrdiff_t>(at.first) + 1);
-  outer.push_back(at.point);
-  outer.insert(outer.end(), begin + static_cast<std::ptrdiff_t>(at.second) + 1, polygon.end());
-  const bool inner_smaller = std::abs(signed_area(inner)) < std::abs(signed_area(outer));
-  const Polygon& loop = inner_smaller ? inner : outer;
-  Polygon& rest = inner_smaller ? outer : inner;
-  if (std::abs(signed_area(loop)) > kMostLoopArea * std::abs(signed_area(rest))) {
-    throw InputError(subject,
-                     fmt::format("the outline crosses itself: edge {} meets edge {} near ({:.6g}, {:.6g})",
-                                 at.first + 1, at.second + 1, at.point.x, at.point.y),
-                     "draw it without crossings");
+/// A closed polygon whose loops are cut off.  Edges keep their numbers; those of a loop are taken out.
+class Loops {
+ public:
+  explicit Loops(const Polygon& polygon)
+      : grid_(polygon),
+        begins_(polygon),
+        ends_(polygon),
+        is_left_(polygon.size(), true),
+        left_(polygon.size()) {
+    std::rotate(ends_.begin(), ends_.begin() + 1, ends_.end());
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      after_.push_back((i + 1) % polygon.size());
+      before_.push_back((i + polygon.size() - 1) % polygon.size());
+      doubled_area_ += doubled_area(begins_[i], ends_[i]);
+    }
   }
-  return without_repeats(rest);
+
+  /// Edges that are left.
+  std::size_t size() const { return left_; }
+
+  /// The first edge that meets a later one, and the first of those that it meets.  Edges before it are not looked at again, as
+  /// cutting makes none longer.
+  std::optional<Crossing> next_crossing() {
+    for (; at_ < begins_.size(); ++at_) {
+      if (!is_left_[at_]) continue;
+      std::optional<Crossing> found;
+      grid_.visit_later(at_, [&](std::size_t j) {
+        if (!is_left_[j] || after_[at_] == j || after_[j] == at_ || (found && found->second <= j)) return;
+        const auto shares = meeting(begins_[at_], ends_[at_], begins_[j], ends_[j]);
+        if (shares) found = Crossing{at_, j, begins_[at_] + shares->x * (ends_[at_] - begins_[at_])};
+      });
+      if (found) return found;
+    }
+    return std::nullopt;
+  }
+
+  /// Cuts off the smaller of the two loops at a crossing.
+  /// \return its area, as a share of the other one's
+  double cut(const Crossing& at) {
+    const auto& [i, j, point] = at;
+    double inner = doubled_area(point, ends_[i]) + doubled_area(begins_[j], point);
+    for (std::size_t k = after_[i]; k != j; k = after_[k]) inner += doubled_area(begins_[k], ends_[k]);
+    const double outer = doubled_area_ - inner;
+    const bool inner_smaller = std::abs(inner) < std::abs(outer);
+    const std::size_t first =
+        inner_smaller ? i : j;  // the loop lies between the end of this and the begin of the other
+    const std::size_t last = inner_smaller ? j : i;
+    while (after_[first] != last) take_out(after_[first]);
+    ends_[first] = point;
+    begins_[last] = point;
+    doubled_area_ = inner_smaller ? outer : inner;
+    for (const std::size_t edge : {first, last})
+      if (begins_[edge] == ends_[edge]) take_out(edge);
+    return std::min(std::abs(inner), std::abs(outer)) / std::max(std::abs(inner), std::abs(outer));
+  }
+
+  /// What is left, from the first point that is.
+  Polygon polygon() const {
+    Polygon result;
+    for (std::size_t i = 0; i < begins_.size(); ++i)
+      if (is_left_[i]) result.push_back(begins_[i]);
+    return without_repeats(result);
+  }
+
+ private:
+  /// What an edge adds to the doubled area.
+  double doubled_area(const glm::dvec2& from, const glm::dvec2& to) const {
+    return cross(from - begins_.front(), to - begins_.front());
+  }
+
+  void take_out(std::size_t edge) {
+    is_left_[edge] = false;
+    --left_;
+    after_[before_[edge]] = after_[edge];
+    before_[after_[edge]] = before_[edge];
+  }
+
+  EdgeGrid grid_;
+  Polygon begins_;  ///< of every edge
+  Polygon ends_;
+  std::vector<bool> is_left_;
+  std::vector<std::size_t> after_;  ///< the next edge that is left
+  std::vector<std::size_t> before_;
+  double doubled_area_ = 0.0;
+  std::size_t left_;
+  std::size_t at_ = 0;
+};
+
+/// \param notes  gets a sentence if loops were cut off
+/// \throws InputError  one is too large, or there are too many
+Polygon without_loops(const Polygon& polygon, const std::string& subject, std::vector<std::string>& notes) {
+  const std::size_t most = std::max(kMostLoops, polygon.size() / kLeastPoints);
+  Loops left(polygon);
+  std::size_t loops = 0;
+  while (left.size() >= kLeastPoints) {
+    const auto crossing = left.next_crossing();
+    if (!crossing) break;
+    if (left.cut(*crossing) > kMostLoopArea) {
+      throw InputError(
+          subject,
+          fmt::format("the outline crosses itself: edge {} meets edge {} near ({:.6g}, {:.6g})",
+                      crossing->first + 1, crossing->second + 1, crossing->point.x, crossing->point.y),
+          "draw it without crossings");
+    }
+    if (++loops > most)
+      throw InputError(subject, "the outline crosses itself everywhere", "draw it without crossings");
+  }
+  if (loops == 0) return polygon;
+  notes.push_back(
+      fmt::format("{}: the outline crosses itself; {} cut off", subject, counted(loops, "small loop")));
+  return left.polygon();
 }
 
 }  // namespace
@@ -182,20 +274,8 @@ std::optional<glm::dvec2> meeting(const glm::dvec2& a, const glm::dvec2& b, cons
 }
 
 std::optional<Crossing> find_crossing(const Polygon& polygon) {
-  const std::size_t count = polygon.size();
-  if (count < 4) return std::nullopt;
-  const EdgeGrid grid(polygon);
-  for (std::size_t i = 0; i + 2 < count; ++i) {
-    std::optional<Crossing> found;
-    grid.visit_later(i, [&](std::size_t j) {
-      if (j < i + 2 || (i == 0 && j + 1 == count)) return;
-      if (found && found->second <= j) return;
-      const auto shares = meeting(polygon[i], polygon[i + 1], polygon[j], polygon[(j + 1) % count]);
-      if (shares) found = Crossing{i, j, polygon[i] + shares->x * (polygon[i + 1] - polygon[i])};
-    });
-    if (found) return found;
-  }
-  return std::nullopt;
+  if (polygon.size() < kLeastPoints) return std::nullopt;
+  return Loops(polygon).next_crossing();
 }
 
 std::optional<double> open_ends(const Polygon& line) {
@@ -227,17 +307,7 @@ std::optional<std::string> doubt_ends(const Polygon& line) {
 Polygon mend_polygon(Polygon polygon, const std::string& subject, std::vector<std::string>& notes) {
   require_usual_points(polygon, subject);
   polygon = without_repeats(polygon);
-  std::size_t loops = 0;
-  while (polygon.size() >= kLeastPoints) {
-    const auto crossing = find_crossing(polygon);
-    if (!crossing) break;
-    polygon = cut_loop(polygon, *crossing, subject);
-    if (++loops > kMostLoops)
-      throw InputError(subject, "the outline crosses itself everywhere", "draw it without crossings");
-  }
-  if (loops > 0)
-    notes.push_back(
-        fmt::format("{}: the outline crosses itself; {} cut off", subject, counted(loops, "small loop")));
+  if (polygon.size() >= kLeastPoints) polygon = without_loops(polygon, subject, notes);
   if (polygon.size() < kLeastPoints) {
     throw InputError(subject,
                      fmt::format("an outline of {} points says nothing of where it broke", polygon.size()),

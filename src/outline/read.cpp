@@ -123,7 +123,7 @@ Outlines read_outlines(const std::string& path, Kind kind, std::vector<std::stri
 
 bool has_piece_name(const std::string& path) {
   // Other files end in .json as well.
-  return kind_of(path) != Kind::Unknown && fs::path(path).extension() != ".json";
+  return kind_of(path) != Kind::Unknown && extension_of(path) != ".json";
 }
 
 PieceSet read_pieces(const std::string& path, const ExtractOptions& options) {

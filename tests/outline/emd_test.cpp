@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "outline/contact.hpp"
+#include "outline/frechet.hpp"
+#include "outline/lcs.hpp"
 #include "outline/stitch.hpp"
 #include "planted.hpp"
 
@@ -70,6 +74,39 @@ TEST(Emd, TheBoundaryRunsAsFarAsThePiecesTouch) {
     const JoinAreas areas = join_areas(board.pieces[0].outline, board.pieces[1].outline, best);
     EXPECT_LT(areas.gap + areas.overlap, 0.5 * best.boundary.length) << seed;
   }
+}
+
+// A larger piece and a smaller one, in either order.
+void expect_the_same_either_way(const Matcher& matcher, const std::vector<Piece>& pieces) {
+  const PairResult one = matcher.match(0, 1, Context());
+  const PairResult other = matcher.match(1, 0, Context());
+  ASSERT_FALSE(one.candidates.empty());
+  ASSERT_EQ(one.candidates.size(), other.candidates.size());
+  const auto place = [&](std::size_t piece, double distance) {
+    const std::vector<glm::dvec2>& border = pieces[piece].outline.points;
+    return point_at(border, arc_lengths(border), distance);
+  };
+  for (std::size_t k = 0; k < one.candidates.size(); ++k) {
+    EXPECT_EQ(one.candidates[k].score, other.candidates[k].score);
+    EXPECT_LT(planted::misplacement(pieces[1], one.candidates[k].pose, inverse(other.candidates[k].pose)),
+              1e-9);
+  }
+  const Boundary& met = other.candidates[0].boundary;
+  EXPECT_LT(glm::distance(place(1, met.begin_a), other.candidates[0].pose(place(0, met.begin_b))),
+            4.0 * median_perimeter(pieces) / 240.0);
+}
+
+TEST(Emd, OrderOfThePiecesDoesNotMatter) {
+  planted::Board board = planted::broken_board(3, 1, 0.05, 5);
+  board.pieces.erase(board.pieces.begin() + 2);
+  for (const auto& make : {std::function(make_emd), std::function(make_frechet)}) {
+    const auto matcher = make({});
+    matcher->prepare(board.pieces);
+    expect_the_same_either_way(*matcher, board.pieces);
+  }
+  const auto lcs = make_lcs();
+  lcs->prepare(board.pieces);
+  expect_the_same_either_way(*lcs, board.pieces);
 }
 
 TEST(Emd, SaysLittleOfPiecesThatDoNotJoin) {

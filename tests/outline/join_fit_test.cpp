@@ -37,6 +37,24 @@ TEST(JoinFit, ADistanceThatVariesAlongTheBoundarySpeaksAgainstIt) {
   EXPECT_LT(evidence_with_wave(4.0), 0.2 * exact);  // it is 0.18, and 0.41 without that distance
 }
 
+/// A circle with points at these places of a pattern of ten degrees, again and again.
+Piece circle_with(const std::vector<double>& degrees) {
+  Piece piece;
+  for (int ten = 0; ten < 36; ++ten) {
+    for (const double degree : degrees) {
+      const double angle = (10.0 * ten + degree) * M_PI / 180.0;
+      piece.outline.points.emplace_back(1000.0 * std::cos(angle), 1000.0 * std::sin(angle));
+    }
+  }
+  return piece;
+}
+
+TEST(AutomaticStep, FollowsEvenPointsAndNotThoseOfASimplifiedOutline) {
+  const double degree = 1000.0 * M_PI / 180.0;
+  EXPECT_NEAR(automatic_step({circle_with({0, 2, 4, 6, 8})}), 1.4 * 2.0 * degree, 0.01 * degree);
+  EXPECT_LT(automatic_step({circle_with({0, 0.3, 2.5, 5, 7.5})}), 0.3 * degree);
+}
+
 // Overlap is told to a share of the tolerance also in large scans.
 TEST(DistanceGrid, IsAsFineAsAskedForHoweverLargeThePiece) {
   for (const double size : {300.0, 1500.0}) {

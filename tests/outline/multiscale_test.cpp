@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/parallel.hpp"
 #include "core/random.hpp"
 #include "shapes.hpp"
@@ -147,6 +150,44 @@ TEST(Multiscale, UnitAndPlaceDoNotMatter) {
   const JoinCandidate after = matcher->match(0, 1, Context()).candidates.at(0);
   EXPECT_NEAR(after.score, before.score, 1e-6);
   EXPECT_LT(glm::distance(after.pose.translation, before.pose.translation * kUnit), 1e-6);
+}
+
+/// A sheet torn across its middle, `length` wide either side, drawn with a point each unit: most of the border is exactly straight.
+std::vector<Piece> torn_sheet(double length) {
+  constexpr int kHigh = 600;
+  Random random(7);
+  std::vector<double> waves;
+  for (int k = 1; k < kHigh / 6; ++k) waves.push_back(30.0 * std::pow(k, -1.3) * random.normal());
+  const auto torn_at = [&](int y) {
+    double x = 0.0;
+    for (std::size_t k = 0; k < waves.size(); ++k)
+      x += waves[k] * std::sin(M_PI * static_cast<double>(k + 1) * y / kHigh);
+    return x;
+  };
+  const auto half = [&](double side) {
+    Outline outline;
+    for (int y = 0; y <= kHigh; ++y) outline.points.emplace_back(torn_at(y), y);
+    const auto wide = static_cast<int>(length);
+    for (int x = 1; x <= wide; ++x) outline.points.emplace_back(side * x, kHigh);
+    for (int y = kHigh - 1; y >= 0; --y) outline.points.emplace_back(side * length, y);
+    for (int x = wide - 1; x >= 1; --x) outline.points.emplace_back(side * x, 0);
+    if (signed_area(outline.points) < 0.0) std::reverse(outline.points.begin(), outline.points.end());
+    return outline;
+  };
+  return {{"left", "", half(-1.0)}, {"right", "", half(1.0)}};
+}
+
+// The usual turning is that of what bends, however little of the border that is.
+TEST(Multiscale, JoinsTornSheetsWhoseOtherSidesAreStraight) {
+  for (const double length : {300.0, 900.0}) {
+    const std::vector<Piece> pieces = torn_sheet(length);
+    const auto matcher = make_multiscale();
+    matcher->prepare(pieces);
+    const PairResult result = matcher->match(0, 1, Context());
+    ASSERT_FALSE(result.candidates.empty()) << length;
+    EXPECT_LT(worst_distance(result.candidates[0].pose, Planar{}, pieces[1].outline), 3.0) << length;
+    EXPECT_GT(result.candidates[0].score, 0.9) << length;
+  }
 }
 
 }  // namespace

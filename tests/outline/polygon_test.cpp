@@ -53,6 +53,30 @@ TEST(Polygon, SmallLoopIsCutOffWithANote) {
   EXPECT_NE(notes[0].find("a.csv"), std::string::npos);
 }
 
+TEST(Polygon, LoopsOfARoughBorderAreCutOffHoweverManyThereAre) {
+  Random random(5);
+  std::vector<glm::dvec2> polygon = testing::circle(1000.0, 12000);
+  for (glm::dvec2& p : polygon) p += 0.7 * glm::dvec2(random.normal(), random.normal());
+  std::vector<std::string> notes;
+  const auto mended = mend_polygon(polygon, "rough.csv", notes);
+  EXPECT_FALSE(find_crossing(mended));
+  EXPECT_GT(mended.size(), polygon.size() / 2);
+  EXPECT_NEAR(signed_area(mended), M_PI * 1e6, 2e3);
+  ASSERT_EQ(notes.size(), 1U);
+  const std::size_t count = notes[0].find("itself; ") + 8;
+  EXPECT_GT(std::stoi(notes[0].substr(count)), 500) << notes[0];
+}
+
+// The loop at the crossing that holds the first point may be the small one.
+TEST(Polygon, SmallLoopAtTheFirstPointIsCutOff) {
+  std::vector<std::string> notes;
+  const auto mended =
+      mend_polygon({{50, 103}, {49, 100}, {0, 100}, {0, 0}, {100, 0}, {100, 100}, {48, 102}}, "a.csv", notes);
+  EXPECT_FALSE(find_crossing(mended));
+  EXPECT_NEAR(signed_area(mended), 10000.0, 150.0);
+  EXPECT_EQ(notes.size(), 1U);
+}
+
 TEST(Polygon, BowTieIsRefusedWithThePlace) {
   std::vector<std::string> notes;
   try {

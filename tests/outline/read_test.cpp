@@ -228,6 +228,14 @@ TEST_F(Read, CsvMayHoldSeveralOutlinesPartedByBlankLines) {
   EXPECT_NE(set.notes[0].find("blank lines part 2 outlines"), std::string::npos) << set.notes[0];
 }
 
+TEST_F(Read, BlankLinesPartOutlinesOfFewPointsThatEndWhereTheyBegin) {
+  const std::string square = "0,0\n4,0\n4,4\n0,4\n0,0\n";
+  const std::string other = "10,0\n19,0\n19,9\n10,9\n10,0\n";
+  const PieceSet set = read_pieces(write("a.csv", "x,y\n" + square + "\n" + other));
+  ASSERT_EQ(set.pieces.size(), 2U);
+  EXPECT_EQ(signed_area(set.pieces[0].outline.points), 81.0);
+}
+
 TEST_F(Read, OutlinesThatEndFarFromTheirBeginningAreDoubted) {
   const auto doubted = [&](const char* name, const std::string& text) {
     const PieceSet set = read_pieces(write(name, text));

@@ -18,12 +18,19 @@ constexpr double kFromMedian = 1.4826;
 
 }  // namespace
 
-double usual_turning(std::span<const std::vector<ScaleSignal>> pieces, std::size_t k) {
+double straight_turning(std::size_t k) {
+  constexpr double kRounded = 0.003;
+  return std::ldexp(kRounded, -static_cast<int>(k));
+}
+
+double usual_turning(std::span<const std::vector<ScaleSignal>> pieces, std::size_t k, bool of_pixels) {
+  const double straight = of_pixels ? 0.0 : straight_turning(k);
   std::vector<float> sizes;
   for (const auto& piece : pieces) {
-    for (const float t : piece[k].turning) sizes.push_back(std::abs(t));
+    for (const float t : piece[k].turning)
+      if (std::abs(static_cast<double>(t)) > straight) sizes.push_back(std::abs(t));
   }
-  return std::max(kFromMedian * static_cast<double>(median(sizes)), 1e-12);
+  return std::max(sizes.empty() ? straight : kFromMedian * static_cast<double>(median(sizes)), 1e-12);
 }
 
 Coded encode(const ScaleSignal& signal, double usual) {

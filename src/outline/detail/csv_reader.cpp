@@ -183,7 +183,8 @@ std::string without_quotes(std::string_view line) {
 bool are_outlines(const std::vector<std::vector<glm::dvec2>>& lines) {
   constexpr std::size_t kLeastPoints = 12;
   return lines.size() > 1 && std::ranges::all_of(lines, [](const auto& line) {
-           return line.size() >= kLeastPoints && !open_ends(line);
+           const bool is_closed = line.size() > 3 && line.front() == line.back();
+           return is_closed || (line.size() >= kLeastPoints && !open_ends(line));
          });
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "outline/detail/coding.hpp"
 #include "outline/detail/independence.hpp"
 
 namespace rejoin::outline::detail {
@@ -18,8 +19,6 @@ constexpr double kLeastSamples = 5.0;
 /// A straight border turns by up to so much from sample to sample at the finest scale, as the pixels' raster has it, root mean square,
 /// radians, and by half of it at each coarser one.  Straight borders of one slope have one raster and agree very well by it.
 constexpr double kRaster = 0.03;
-/// The same of borders from outline files, which have no pixels but rounded numbers.
-constexpr double kRounded = 0.003;
 /// The same of pixels all in or all out, as a share of their raster and of the step: a staircase of steps of one pixel, smoothed, turns
 /// by up to 0.15 pixels a step.  That hides the fine scales of broken borders too, so a scale counts where it or one of the next
 /// coarser ones shows that the border is not straight.
@@ -117,8 +116,9 @@ Level level_at(const ScaledBorder& a, const ScaledBorder& b, const std::vector<C
   }
   if (sums.count < kLeastSamples) return {};
   const double least = std::min(sums.size_a(), sums.size_b());
-  const double straight = a.pixels.any || b.pixels.any ? kRaster : kRounded;
-  if (least < std::ldexp(straight, -static_cast<int>(k))) return {};
+  const double straight =
+      a.pixels.any || b.pixels.any ? std::ldexp(kRaster, -static_cast<int>(k)) : straight_turning(k);
+  if (least < straight) return {};
   const double r = std::clamp(sums.correlation(), 0.0, 0.999);
   const double carrying = sums.carrying();
   return {-0.5 * std::log(1.0 - r * r), kIndependent * carrying,
