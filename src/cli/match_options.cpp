@@ -41,7 +41,7 @@ void MatchOptions::define(CLI::App& app) {
   add_choice(app, "--backend", options_.backend, backend_choices(), "what draws");
   chains_ =
       add_number(app, "--chains", options_.chains, {1, 256}, "annealing chains side by side, 1 to 256 (8)");
-  add_seed(app, options_.seed, "of the random numbers");
+  add_seed(app, options_.seed, "of the random numbers (esa)");
 }
 
 match::Options MatchOptions::values() const {
@@ -78,13 +78,10 @@ match::Options MatchOptions::values() const {
 
 /// An option that changes nothing is a mistake: the user expects something of it.
 void MatchOptions::require_effect(const match::Options& options) const {
-  const bool by_material = options.constraint == match::Constraint::Material || options.material_a;
-  const bool tolerated = options.constraint == match::Constraint::Direction ||
-                         (by_material && options.search == match::Search::Sweep);
-  if (tolerance_->count() > 0 && !tolerated) {
+  if (tolerance_->count() > 0 && options.constraint == match::Constraint::None) {
     throw UsageError(
         "--tolerance", "has no direction that it could be of",
-        "add --direction-a or --direction-b (with --search esa facets will do), or leave it out");
+        "add directions or axes of the material (with --search esa facets will do), or leave it out");
   }
   const auto require_one = [](const std::vector<int>& facets, const std::vector<glm::dvec3>& directions,
                               const char* facets_name, const char* directions_name) {

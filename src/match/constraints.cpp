@@ -49,7 +49,7 @@ ConstraintPlan plan_constraints(const Options& options) {
   }
   ConstraintPlan plan;
   plan.directions = options.constraint == Constraint::Direction || !options.directions_a.empty() ||
-                    !options.directions_b.empty();
+                    !options.directions_b.empty() || !options.facets_a.empty() || !options.facets_b.empty();
   if (axes) plan.material = plan.directions ? MaterialUse::Bias : MaterialUse::Restrict;
   return plan;
 }
@@ -105,14 +105,23 @@ SearchSpace material_space(const glm::dvec3& axis_a, const glm::dvec3& axis_b, d
 
 void centre_on_silhouettes(SearchSpace& space, zbuffer::Scorer& scorer, double view_side, int samples) {
   std::vector<glm::dvec2> shifts;
+  std::optional<glm::dvec2> last_px;
   space.shift_of_rho.clear();
   for (int k = 0; k < samples; ++k) {
     PoseVector pose{};
     pose[kRho1] = kTurn * k / samples;
     const auto [a, b] = scorer.depth_maps(space.view(pose));
-    shifts.push_back(best_silhouette_shift(a, b).shift_px * (view_side / a.width));
+    // Between two rotations shifts are mixed: on from one to the next they must not jump across a hole.
+    last_px = best_silhouette_shift(a, b, last_px).shift_px;
+    shifts.push_back(*last_px * (view_side / a.width));
   }
   space.shift_of_rho = std::move(shifts);
+}
+
+EnergyRule at_resolution(EnergyRule rule, int resolution) {
+  if (resolution < kFineMap)
+    rule.least_pixels = rule.least_pixels * resolution * resolution / (kFineMap * kFineMap);
+  return rule;
 }
 
 double energy(const zbuffer::PairScore& score, const zbuffer::ViewPair& view, const EnergyRule& rule) {

@@ -25,9 +25,9 @@ struct ConstraintPlan {
 
 /// Applies figure 11: material axes alone restrict; beside fracture directions they only bias.  (The overlap
 /// bias goes with everything; see EnergyRule.)  Directions or axes that are given count as available whatever
-/// options.constraint says; options.constraint asks for one that must then be found (Direction) or given
-/// (Material). \throws InputError only one fragment's axis is given, Material is asked for without axes, an
-/// axis or a direction
+/// options.constraint says, and so do the directions of facets that are named; options.constraint asks for one that
+/// must then be found (Direction) or given (Material).
+/// \throws InputError only one fragment's axis is given, Material is asked for without axes, an axis or a direction
 ///                    has no length, or the tolerance is out of range
 ConstraintPlan plan_constraints(const Options& options);
 
@@ -68,15 +68,23 @@ SearchSpace material_space(const glm::dvec3& axis_a, const glm::dvec3& axis_b, d
 ///         the best shift turns with rho1.
 void centre_on_silhouettes(SearchSpace& space, zbuffer::Scorer& scorer, double view_side, int samples);
 
+/// Pixels across a map from which on EnergyRule::least_pixels holds as it is.
+inline constexpr int kFineMap = 32;
+
 /// What is minimised.
 struct EnergyRule {
   bool overlap_bias = true;     ///< lambda_d = min(A_S1, A_S2) / A_S, else 1
   double least_overlap = 0.05;  ///< share of the smaller silhouette below which a pose is forbidden, 0 .. 1
-  int least_pixels = 32;        ///< N_S below which a pose is forbidden: slivers seen edge-on fit anything
+  /// N_S below which a pose is forbidden: slivers seen edge-on fit anything.  Of maps of kFineMap pixels across and more.
+  int least_pixels = 32;
   double material_weight =
       0.1;  ///< lambda_mat, 0 .. 1; e_d's weight is 1 - lambda_mat.  Used with material_axes
   std::optional<std::pair<glm::dvec3, glm::dvec3>> material_axes;  ///< unit, file axes of A and B
 };
+
+/// The rule for maps of `resolution` pixels across: of coarser ones than kFineMap, which show whole fragments in a few pixels,
+/// least_pixels is the same share of the map as there.
+EnergyRule at_resolution(EnergyRule rule, int resolution);
 
 /// e = lambda_d e_d + lambda_mat (1 - |a1 . a2|), +infinity for forbidden poses.
 /// \source papaioannou 2002, eq. (11) and section 5.1; deviation: lambda_d of the overlap bias is multiplied

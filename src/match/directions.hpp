@@ -14,15 +14,16 @@ struct CandidateDirection {
 };
 
 /// The given directions or, if there are none, the mean normals of the roughest facets: fracture facets (all
-/// facets where none counts as fracture) of at least a twentieth of the largest one's area, roughest first.
+/// facets where none counts as fracture) of at least a twentieth of the largest one's area, roughest first; or those of all facets
+/// that are named.
 /// \param given    any length but 0, file axes
-/// \param allowed  facet numbers that may be used; empty: any
-/// \param most     how many directions are taken from the facets
+/// \param named    facets that may join whatever their size, roughest first; empty: any
+/// \param most     how many directions are taken from facets that are not named
 /// \return empty if nothing is given and the fragment has no such facet
 /// \source papaioannou 2002, section 6.2
 std::vector<CandidateDirection> candidate_directions(const Fragment& fragment,
                                                      const std::vector<glm::dvec3>& given,
-                                                     const std::vector<int>& allowed, int most);
+                                                     const std::vector<int>& named, int most);
 
 /// The facet whose mean normal is nearest to `direction`, fracture facets first; -1 if there is none.
 int facet_towards(const Fragment& fragment, const glm::dvec3& direction);

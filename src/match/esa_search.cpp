@@ -77,7 +77,7 @@ class EsaRun {
         context_(context),
         stats_(stats),
         plan_(plan_constraints(options)),
-        rule_(esa.rule) {
+        rule_(at_resolution(esa.rule, options.resolution)) {
     if (esa.maps == MapSource::Facet) {
       plan_.directions = true;
       if (plan_.material == MaterialUse::Restrict) plan_.material = MaterialUse::Bias;

@@ -10,6 +10,7 @@
 
 #include "core/stopwatch.hpp"
 #include "match/align.hpp"
+#include "match/constraints.hpp"
 #include "match/cuts.hpp"
 #include "match/esa_search.hpp"
 #include "match/near.hpp"
@@ -63,7 +64,7 @@ std::vector<int> facets_facing(const Fragment& fragment, const std::vector<glm::
   return list;
 }
 
-/// What to tell of directions that no facet faces: the closest ones are searched.
+/// What to tell of directions that no facet faces: the sweep searches the closest ones, the annealing what lies there.
 void doubt_directions(const Fragment& fragment, const std::vector<glm::dvec3>& directions,
                       double tolerance_deg, std::vector<std::string>& warnings) {
   for (const glm::dvec3& direction : directions) {
@@ -91,6 +92,14 @@ void doubt_facets(const Fragment& fragment, const std::vector<int>& chosen,
   }
 }
 
+void doubt_wishes(const Fragment& a, const Fragment& b, const Options& options,
+                  std::vector<std::string>& warnings) {
+  doubt_directions(a, options.directions_a, options.tolerance_deg, warnings);
+  doubt_directions(b, options.directions_b, options.tolerance_deg, warnings);
+  doubt_facets(a, options.facets_a, warnings);
+  doubt_facets(b, options.facets_b, warnings);
+}
+
 std::vector<int> allowed_facets(const Fragment& fragment, const std::vector<int>& chosen,
                                 const std::vector<glm::dvec3>& directions, const Options& options) {
   if (!chosen.empty()) return in_both_cuts(fragment, chosen);
@@ -110,6 +119,11 @@ bool axes_may_agree(const Rigid& pose, const Options& options) {
   return axes_agree(pose, options, options.tolerance_deg + 10.0);
 }
 
+/// Whether the axes say which poses are told; beside directions they only bias the annealing (figure 11).
+bool axes_restrict(const Options& options) {
+  return options.search == Search::Sweep || plan_constraints(options).material == MaterialUse::Restrict;
+}
+
 /// Leaves out what the alignment turned off the material's axes, and tells the best of it that may be a join.
 void keep_axes(std::vector<Hypothesis>& hypotheses, const Options& options,
                std::vector<std::string>& warnings) {
@@ -127,10 +141,6 @@ void keep_axes(std::vector<Hypothesis>& hypotheses, const Options& options,
 
 std::vector<Hypothesis> run_sweep(const Fragment& a, const Fragment& b, const Options& options,
                                   const std::optional<Near>& near, const Context& context, Result& result) {
-  doubt_directions(a, options.directions_a, options.tolerance_deg, result.warnings);
-  doubt_directions(b, options.directions_b, options.tolerance_deg, result.warnings);
-  doubt_facets(a, options.facets_a, result.warnings);
-  doubt_facets(b, options.facets_b, result.warnings);
   SweepOptions sweep_options;
   sweep_options.facets_a = allowed_facets(a, options.facets_a, options.directions_a, options);
   sweep_options.facets_b = allowed_facets(b, options.facets_b, options.directions_b, options);
@@ -246,6 +256,7 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
   context.report("search", 0.0);
   std::optional<Near> near;
   if (options.near) near.emplace(a, b, *options.near);
+  if (options.proposals.empty()) doubt_wishes(a, b, options, result.warnings);
   auto hypotheses = !options.proposals.empty()        ? proposed(a, b, options)
                     : options.search == Search::Sweep ? run_sweep(a, b, options, near, context, result)
                                                       : run_esa(a, b, options, context, result);
@@ -270,7 +281,7 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
   weigh(hypotheses, joint);
   if (!context.cancelled()) settle(hypotheses, joint, b, std::min(a.diameter, b.diameter));
   if (near) keep_near(hypotheses, *near);
-  if (options.search == Search::Sweep) keep_axes(hypotheses, options, result.warnings);
+  if (axes_restrict(options)) keep_axes(hypotheses, options, result.warnings);
   const double next = strongest_rival(hypotheses);
   hypotheses.resize(std::min(hypotheses.size(), static_cast<std::size_t>(options.max_candidates)));
   clock.lap("align");

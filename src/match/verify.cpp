@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "match/esa_search.hpp"
 #include "match/pose_space.hpp"
@@ -28,6 +29,13 @@ std::string told_rival(const Stability& stability) {
   if (stability.next_share > kNext) return "another pose of the two is nearly as good";
   return fmt::format("another pose of the two is {:.2f} behind in log-odds, and {:.0f} are asked for a join",
                      stability.margin, kAhead);
+}
+
+/// Not shifted but by a part of a pixel, so that as many pixels are covered as if nothing were cut off at the view's sides.
+zbuffer::ViewPair with_a_in_view(zbuffer::ViewPair view, const zbuffer::ViewOptions& options) {
+  const float pixel = static_cast<float>(options.view_side) / static_cast<float>(options.resolution);
+  view.shift_a -= pixel * glm::round(view.shift_a / pixel);
+  return view;
 }
 
 }  // namespace
@@ -92,15 +100,15 @@ Candidate Verifier::candidate(const Rigid& pose, const Evidence& evidence, doubl
   const ViewCentres centres{a_.surface.origin + glm::dvec3(view_.centre_a),
                             b_.surface.origin + glm::dvec3(view_.centre_b)};
   c.view = facing_view(c.pose, direction, centres).view;
-  const std::array<zbuffer::ViewPair, 1> views{c.view};
-  std::array<zbuffer::PairScore, 1> scores;
+  const std::array views{c.view, with_a_in_view(c.view, view_)};
+  std::array<zbuffer::PairScore, 2> scores;
   raster_->score(views, scores);
   c.error.depth = static_cast<double>(scores[0].error);
   c.error.slope = c.error.depth * view_.resolution;
-  const int covered = std::min(scores[0].covered_a, scores[0].covered_b);
+  const int covered = std::min(scores[1].covered_a, scores[0].covered_b);
   c.error.overlap = covered > 0 ? static_cast<double>(scores[0].overlap) / covered : 0.0;
   if (!raycast_) raycast_ = zbuffer::make_scorer(zbuffer::Backend::RayCast, a_.surface, b_.surface, view_);
-  raycast_->score(views, scores);
+  raycast_->score(std::span(views).first(1), std::span(scores).first(1));
   c.error.raycast = static_cast<double>(scores[0].error) * view_.resolution;
   return c;
 }

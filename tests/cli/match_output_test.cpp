@@ -126,9 +126,9 @@ TEST_F(MatchOutput, TellsTheTimeOfEveryStage) {
     sum += stage["seconds"].get<double>();
   }
   EXPECT_EQ(names,
-            (std::vector<std::string>{"load a", "surface a", "flaps a", "pores a", "coarse a", "facets a",
-                                      "load b", "surface b", "flaps b", "pores b", "coarse b", "facets b",
-                                      "prepare", "search", "align", "verify"}));
+            (std::vector<std::string>{"load a", "keep a", "surface a", "flaps a", "pores a", "coarse a",
+                                      "facets a", "load b", "keep b", "surface b", "flaps b", "pores b",
+                                      "coarse b", "facets b", "prepare", "search", "align", "verify"}));
   EXPECT_GT(sum, 0.0);
   EXPECT_LE(sum, search["seconds"].get<double>());
 }

@@ -178,10 +178,6 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUse{"EmptyRunAmongSeveral", {"merge", "part-1", "", "--out", "run"}, "RUN: is empty"},
         WrongUse{
             "ToleranceOfNothing", {"match", "a.ply", "b.ply", "--tolerance", "5"}, "--tolerance: has no"},
-        WrongUse{"ToleranceOfAMaterialInAnnealing",
-                 {"match", "a.ply", "b.ply", "--search", "esa", "--material-a", "0,0,1", "--material-b",
-                  "0,0,1", "--tolerance", "5"},
-                 "--tolerance: has no"},
         WrongUse{"FacetsOfAnnealingWithoutConstraint",
                  {"match", "a.ply", "b.ply", "--search", "esa", "--facets-b", "1", "--constraint", "none"},
                  "--constraint none: contradicts"},
@@ -211,6 +207,23 @@ INSTANTIATE_TEST_SUITE_P(
                  "./p.png: is given to --json and to --png"},
         WrongUse{"BenchResolution", {"bench", "--resolution", "1"}, "--resolution"}),
     [](const auto& info) { return std::string(info.param.name); });
+
+// What is missing then are the files.
+TEST(CommandLine, ToleranceServesWhateverRestrictsPoses) {
+  const std::vector<std::string> material{"--material-a", "0,0,1", "--material-b", "0,0,1"};
+  const std::vector<std::string> directions{"--direction-a", "0,0,1", "--direction-b", "0,0,1"};
+  for (const char* search : {"sweep", "esa"}) {
+    for (const auto& more : {std::vector<std::string>{}, directions}) {
+      std::vector<std::string> arguments{"match",    "a.ply", "b.ply",        "--tolerance", "5",
+                                         "--search", search,  "--constraint", "material"};
+      arguments.insert(arguments.end(), material.begin(), material.end());
+      arguments.insert(arguments.end(), more.begin(), more.end());
+      const Finished finished = run(arguments);
+      EXPECT_EQ(finished.exit_code, 1) << finished.err;
+      EXPECT_EQ(finished.err.find("--tolerance"), std::string::npos) << finished.err;
+    }
+  }
+}
 
 class HelpTest : public ::testing::TestWithParam<const char*> {};
 
@@ -278,6 +291,7 @@ TEST(Help, TellsRangesOfNumbers) {
   EXPECT_NE(run({"report", "--help"}).out.find("64 to 1000000 (16000)"), std::string::npos);
   EXPECT_NE(run({"report", "--help"}).out.find("0 to 10000 (60)"), std::string::npos);
   EXPECT_NE(run({"match", "--help"}).out.find("0 to 45 (10)"), std::string::npos);
+  EXPECT_NE(run({"match", "--help"}).out.find("of the random numbers (esa)"), std::string::npos);
   EXPECT_NE(run({"--help"}).out.find("0 to 1024 (0: all cores)"), std::string::npos);
 }
 

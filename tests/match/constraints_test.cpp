@@ -60,6 +60,13 @@ TEST(Constraints, FigureElevensRules) {
   }
 }
 
+TEST(Constraints, NamedFacetsGiveDirectionsBesideWhichAxesOnlyBias) {
+  Options options = with(Constraint::Material, false, true);
+  options.facets_b = {3};
+  EXPECT_TRUE(plan_constraints(options).directions);
+  EXPECT_EQ(plan_constraints(options).material, MaterialUse::Bias);
+}
+
 TEST(Constraints, UnusableOnesAreRefusedByOptionName) {
   const auto message = [](auto change) -> std::string {
     Options options;
@@ -207,6 +214,12 @@ TEST(Energy, TooLittleOverlapIsForbidden) {
   EXPECT_TRUE(std::isinf(energy(score(0.0F, 49, 1000, 1000), {}, rule)));
   EXPECT_FALSE(std::isinf(energy(score(0.0F, 50, 1000, 1000), {}, rule)));
   EXPECT_TRUE(std::isinf(energy(score(0.0F, 31, 31, 31), {}, rule)));
+}
+
+TEST(Energy, CoarseMapsNeedTheSameShareOfPixels) {
+  EXPECT_EQ(at_resolution({}, 128).least_pixels, EnergyRule().least_pixels);
+  EXPECT_EQ(at_resolution({}, kFineMap).least_pixels, EnergyRule().least_pixels);
+  EXPECT_EQ(at_resolution({}, kFineMap / 2).least_pixels, EnergyRule().least_pixels / 4);
 }
 
 TEST(Energy, MaterialBiasIsEquationEleven) {

@@ -68,6 +68,13 @@ TEST(EsaSearch, FindsAPlantedCutAlongGivenDirections) {
   }
 }
 
+TEST(EsaSearch, FindsPosesInTheCoarsestMapsToo) {
+  const Case c = planted(1);
+  Options options = with_directions(c);
+  options.resolution = 8;
+  EXPECT_FALSE(esa_search(c.a, c.b, options, {}, Context()).empty());
+}
+
 TEST(EsaSearch, TriesEveryCombinationOfDirections) {
   const Case c = planted(4);
   Options options = with_directions(c);
@@ -188,6 +195,16 @@ TEST(Directions, RoughestFractureFacetsFirstAndCrumbsLeftOut) {
   ASSERT_EQ(given.size(), 1U);
   EXPECT_EQ(given[0].facet, -1);
   EXPECT_DOUBLE_EQ(given[0].direction.z, 1);
+}
+
+TEST(Directions, OfNamedFacetsAreAllUsed) {
+  Fragment fragment;
+  fragment.facets.facets = {facet({1, 0, 0}, 100, 0.2, true), facet({0, 1, 0}, 80, 0.5, true),
+                            facet({0, 0, 1}, 4, 0.9, true), facet({-1, 0, 0}, 200, 0.8, false)};
+  std::vector<int> used;
+  for (const CandidateDirection& found : candidate_directions(fragment, {}, {0, 1, 3, 2, 1}, 2))
+    used.push_back(found.facet);
+  EXPECT_EQ(used, (std::vector<int>{2, 3, 1, 0}));
 }
 
 TEST(Directions, WhereNothingIsFractureEveryFacetCounts) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "../mesh/facet_shapes.hpp"
@@ -205,6 +206,31 @@ TEST(Match, LeavesOutAndTellsWhatTheAlignmentTurnedOffTheMaterialsAxes) {
   }));
 }
 
+/// The paper's annealing, quick.
+Options annealing() {
+  Options options;
+  options.search = Search::Esa;
+  options.resolution = 48;
+  options.chains = 2;
+  return options;
+}
+
+TEST(Match, LeavesOutWhatTheAlignmentTurnedOffTheAxesThatRestrictTheAnnealing) {
+  const Pair pair = make_pair(2);
+  Options options = annealing();
+  options.constraint = Constraint::Material;
+  options.material_a = glm::dvec3(0, 0, 1);
+  options.material_b = glm::dvec3(0, 0, 1);
+  std::size_t count = 0;
+  for (options.seed = 1; options.seed <= 3; ++options.seed) {
+    const Result result = match(pair.a, pair.b, options, Context{});
+    count += result.candidates.size();
+    for (const Candidate& candidate : result.candidates)
+      EXPECT_GE(std::abs(candidate.pose.rotation[2].z), std::cos(options.tolerance_deg * kDegree));
+  }
+  EXPECT_GT(count, 0U);
+}
+
 TEST(Match, TellsOfWallsThatAreAskedFor) {
   const auto thin_half = [](bool below) {
     mesh::Mesh half = testing::half_block(below, 64);
@@ -216,27 +242,29 @@ TEST(Match, TellsOfWallsThatAreAskedFor) {
   const auto& facets = below.facets.facets;
   const auto wall = std::ranges::find_if(facets, [](const mesh::Facet& facet) { return !facet.fracture; });
   ASSERT_NE(wall, facets.end());
-  Options options;
-  options.facets_a = {static_cast<int>(wall - facets.begin())};
-  const Result of_facet = match(below, above, options, Context{});
-  ASSERT_FALSE(of_facet.warnings.empty());
-  EXPECT_NE(of_facet.warnings[0].find("is original surface"), std::string::npos) << of_facet.warnings[0];
+  for (Options options : {Options{}, annealing()}) {
+    options.facets_a = {static_cast<int>(wall - facets.begin())};
+    const Result of_facet = match(below, above, options, Context{});
+    ASSERT_FALSE(of_facet.warnings.empty()) << "search " << static_cast<int>(options.search);
+    EXPECT_NE(of_facet.warnings[0].find("is original surface"), std::string::npos) << of_facet.warnings[0];
+  }
 }
 
 // The sides of this block face along the axes, so its corners' direction lies 55 degrees from the closest.
 TEST(Match, TellsOfADirectionThatNoFacetFaces) {
   const Fragment below = prepare("below", testing::half_block(true, 48), Context{});
   const Fragment above = prepare("above", testing::half_block(false, 48), Context{});
-  Options options;
-  options.constraint = Constraint::Direction;
-  options.directions_a = {{0, 0, 1}};
-  EXPECT_TRUE(match(below, above, options, Context{}).warnings.empty());
-  options.directions_a = {{1, 1, -1}};
-  const Result result = match(below, above, options, Context{});
-  ASSERT_EQ(result.warnings.size(), 1U);
-  EXPECT_NE(result.warnings[0].find("below: no break faces 1,1,-1; the closest one is 55 degrees off"),
-            std::string::npos)
-      << result.warnings[0];
+  for (Options options : {Options{}, annealing()}) {
+    options.constraint = Constraint::Direction;
+    options.directions_a = {{0, 0, 1}};
+    EXPECT_TRUE(match(below, above, options, Context{}).warnings.empty());
+    options.directions_a = {{1, 1, -1}};
+    const Result result = match(below, above, options, Context{});
+    ASSERT_EQ(result.warnings.size(), 1U) << "search " << static_cast<int>(options.search);
+    EXPECT_NE(result.warnings[0].find("below: no break faces 1,1,-1; the closest one is 55 degrees off"),
+              std::string::npos)
+        << result.warnings[0];
+  }
 }
 
 TEST(Match, CancelledSearchReturnsAtOnceAndSaysSo) {

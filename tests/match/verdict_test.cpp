@@ -119,6 +119,19 @@ TEST(Against, NamesWhatTakesMostFromAJoint) {
   EXPECT_EQ(objection(sound()), "");
 }
 
+// Where A is laid beside B, a part of it lies beyond B's view.
+TEST(Figures, OverlapIsAShareOfTheWholeSilhouette) {
+  const Fragment below = flat_half(true);
+  const Fragment above = flat_half(false);
+  Evidence flat = sound();
+  flat.normal = {0, 0, 1};
+  Verifier verifier(below, above, Options{});
+  for (const double part : {0.25, 0.5, 1.0}) {
+    const Rigid beside{glm::dmat3(1.0), glm::dvec3(2.0 * testing::kHalfX * (1.0 - part), 0, 0)};
+    EXPECT_NEAR(verifier.candidate(beside, flat, 0.0).error.overlap, part, 0.03);  // two pixels
+  }
+}
+
 // Where hardly anything touches, a volume over the contact alone would be many times the piece.
 TEST(Figures, PenetrationIsNoDeeperThanWhatLiesInside) {
   const Pair pair = make_pair(5);
