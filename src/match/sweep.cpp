@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <utility>
 
@@ -102,16 +103,23 @@ double pose_distance(const Rigid& x, const Rigid& y, const glm::dvec3& centre, d
   return std::sqrt(glm::dot(t, t) + sum * reach * reach / 3.0);
 }
 
+/// The best `most` and, of every pair of facets, the best `of_each`: foot rings and rims that are taken for breaks lie in each other
+/// in so many ways that they would take all places.
 std::vector<SweepHit> distinct(std::vector<SweepHit> hits, double near, const glm::dvec3& centre,
-                               double reach, std::size_t most) {
+                               double reach, std::size_t most, std::size_t of_each = 0) {
   std::sort(hits.begin(), hits.end(), better);
   std::vector<SweepHit> kept;
+  std::map<std::pair<int, int>, std::size_t> taken;
   for (const auto& hit : hits) {
+    if (of_each == 0 && kept.size() >= most) break;
+    std::size_t& of_these = taken[{hit.facet_a, hit.facet_b}];
+    if (kept.size() >= most && of_these >= of_each) continue;
     const bool known = std::any_of(kept.begin(), kept.end(), [&](const SweepHit& other) {
       return pose_distance(hit.pose, other.pose, centre, reach) < near;
     });
-    if (!known) kept.push_back(hit);
-    if (kept.size() == most) break;
+    if (known) continue;
+    kept.push_back(hit);
+    ++of_these;
   }
   return kept;
 }
@@ -350,7 +358,8 @@ SweepResult sweep(const Fragment& a, const Fragment& b, const SweepOptions& opti
     result.evaluations += part.evaluations;
   }
   result.hits = distinct(std::move(result.hits), 3.0 * resolution, mesh::centroid(b.surface),
-                         0.25 * std::min(a.diameter, b.diameter), static_cast<std::size_t>(kept.in_all));
+                         0.25 * std::min(a.diameter, b.diameter), static_cast<std::size_t>(kept.in_all),
+                         static_cast<std::size_t>(kept.of_each));
   return result;
 }
 

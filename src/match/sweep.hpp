@@ -31,9 +31,12 @@ struct SweepOptions {
   struct Kept {
     int a_pair_of_facets = 0;
     int in_all = 0;
+    int of_each = 0;  ///< pair of facets, beside the best in all
   };
-  Kept kept{96, 1600};
-  Kept kept_thin{24, 400};  ///< where both pieces are thin: their strips tell more
+  Kept kept{.a_pair_of_facets = 96, .in_all = 1600};
+  Kept kept_thin{.a_pair_of_facets = 24,
+                 .in_all = 400,
+                 .of_each = 4};  ///< where both pieces are thin: their strips tell more
 };
 
 struct SweepResult {

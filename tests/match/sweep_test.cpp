@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "prepared_pair.hpp"
 
@@ -182,8 +184,25 @@ TEST(Sweep, SherdsHaveALimitOfTheirOwn) {
   ASSERT_TRUE(both_thin(a, b));
   SweepOptions options;
   options.kept.in_all = 3;
-  options.kept_thin.in_all = 7;
+  options.kept_thin = {.a_pair_of_facets = 24, .in_all = 7, .of_each = 0};
   EXPECT_EQ(sweep(a, b, options, Context{}).hits.size(), 7U);
+}
+
+// The best of all may be of one pair that is no break, as two rims.
+TEST(Sweep, SomeOfEveryPairOfFacetsAreKept) {
+  const Fragment a = thin_half(true);
+  const Fragment b = thin_half(false);
+  const auto count = [&](const SweepOptions::Kept& kept) {
+    SweepOptions options;
+    options.kept_thin = kept;
+    std::map<std::pair<int, int>, std::size_t> hits;
+    for (const SweepHit& hit : sweep(a, b, options, Context{}).hits) ++hits[{hit.facet_a, hit.facet_b}];
+    return hits;
+  };
+  const auto all = count({.a_pair_of_facets = 24, .in_all = 100000, .of_each = 0});
+  const auto few = count({.a_pair_of_facets = 24, .in_all = 1, .of_each = 2});
+  ASSERT_GT(all.size(), 1U);
+  for (const auto& [facets, hits] : all) EXPECT_EQ(few.at(facets), std::min<std::size_t>(hits, 2));
 }
 
 TEST(Prepare, KnowsTheSampleOfEveryFaceThatTheSweepDraws) {
