@@ -102,6 +102,28 @@ TEST(Clean, TurnsAClosedSurfaceThatIsInsideOut) {
   EXPECT_NE(loaded.warnings[0].find("inside out"), std::string::npos);
 }
 
+/// Two spheres of radius 1 side by side, the second one inside out.
+Mesh spheres_of_which_one_is_inside_out(float apart) {
+  Mesh both = test::icosphere(1, 3);
+  const Mesh one = both;
+  const auto first = static_cast<std::uint32_t>(one.vertices.size());
+  for (const glm::vec3& v : one.vertices) both.vertices.push_back(v + glm::vec3(apart, 0, 0));
+  for (const glm::uvec3& face : one.faces)
+    both.faces.emplace_back(first + face.x, first + face.z, first + face.y);
+  return both;
+}
+
+TEST(Clean, TurnsAPartThatIsInsideOut) {
+  for (const float apart : {2.1F, 1.5F}) {
+    const Loaded loaded = through_ply(spheres_of_which_one_is_inside_out(apart));
+    EXPECT_GT(test::volume(loaded.mesh), 8.0) << apart;
+    ASSERT_EQ(loaded.warnings.size(), 1U) << apart;
+    EXPECT_NE(loaded.warnings[0].find("turned 1280 of 2560 faces, of parts that were inside out"),
+              std::string::npos)
+        << loaded.warnings[0];
+  }
+}
+
 /// The faces of a sphere of radius 1 above a height, wound so that they are seen from its inside.
 Mesh inside_of_sphere(float above) {
   Mesh sphere = test::icosphere(1, 3);

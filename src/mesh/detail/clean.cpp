@@ -186,9 +186,10 @@ void clean_faces(Loaded& loaded, const std::string& name, Content content) {
         fmt::format("{}: turned {} of {} faces that were wound against their neighbours", name,
                     turned.inconsistent, before));
   }
-  if (turned.inside_out) {
-    loaded.warnings.push_back(fmt::format("{}: was inside out, turned all faces", name));
-    for (glm::vec3& normal : mesh.normals) normal = -normal;
+  if (turned.inside_out) loaded.warnings.push_back(fmt::format("{}: was inside out, turned all faces", name));
+  if (turned.of_parts > 0) {
+    loaded.warnings.push_back(fmt::format("{}: turned {} of {} faces, of parts that were inside out", name,
+                                          turned.of_parts, before));
   }
   if (!mesh.normals.empty() && !normalize_all(mesh.normals)) compute_normals(mesh);
 }

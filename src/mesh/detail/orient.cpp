@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <numeric>
+#include <set>
+#include <utility>
 #include <vector>
 
+#include "core/components.hpp"
 #include "mesh/detail/outlook.hpp"
 
 namespace rejoin::mesh::detail {
@@ -161,6 +165,51 @@ double enclosed_volume(const Mesh& mesh) {
   return volume;
 }
 
+/// The faces of every part of at least a hundredth of the area; parts have no vertex in common.
+std::vector<std::vector<std::uint32_t>> large_parts(const Mesh& mesh) {
+  constexpr double kLeastPart = 0.01;
+  Components parts(mesh.vertices.size());
+  for (const glm::uvec3& face : mesh.faces) {
+    parts.unite(face.x, face.y);
+    parts.unite(face.x, face.z);
+  }
+  std::map<std::uint32_t, std::pair<double, std::vector<std::uint32_t>>> by_first_vertex;
+  double whole = 0;
+  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+    auto& [area, faces] = by_first_vertex[parts.of(mesh.faces[f].x)];
+    faces.push_back(f);
+    area += doubled_area(mesh, mesh.faces[f]);
+    whole += doubled_area(mesh, mesh.faces[f]);
+  }
+  std::vector<std::vector<std::uint32_t>> list;
+  for (auto& [vertex, part] : by_first_vertex)
+    if (part.first >= kLeastPart * whole) list.push_back(std::move(part.second));
+  return list;
+}
+
+/// Turns parts of which next to nothing but the back can be seen, with their normals.
+/// \return faces turned
+std::size_t turn_parts(Mesh& mesh) {
+  const auto parts = large_parts(mesh);
+  if (parts.size() < 2) return 0;
+  std::vector<std::uint32_t> turned;
+  {
+    const RayScene scene(mesh);
+    const double size = diameter(mesh);
+    for (const auto& part : parts)
+      if (is_inside_out(outlook(submesh(mesh, part), scene, size)))
+        turned.insert(turned.end(), part.begin(), part.end());
+  }
+  std::set<std::uint32_t> vertices;
+  for (const std::uint32_t f : turned) {
+    for (int k = 0; k < 3; ++k) vertices.insert(mesh.faces[f][k]);
+    turn(mesh.faces[f]);
+  }
+  if (!mesh.normals.empty())
+    for (const std::uint32_t v : vertices) mesh.normals[v] = -mesh.normals[v];
+  return turned.size();
+}
+
 }  // namespace
 
 Turned orient_faces(Mesh& mesh) {
@@ -171,7 +220,9 @@ Turned orient_faces(Mesh& mesh) {
   turned.inside_out = enclosed_volume(mesh) < 0 && (adjacency.closed || is_inside_out(outlook(mesh)));
   if (turned.inside_out) {
     for (glm::uvec3& face : mesh.faces) turn(face);
+    for (glm::vec3& normal : mesh.normals) normal = -normal;
   }
+  turned.of_parts = turn_parts(mesh);
   return turned;
 }
 

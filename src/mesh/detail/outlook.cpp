@@ -6,7 +6,6 @@
 
 #include "core/parallel.hpp"
 #include "mesh/detail/directions.hpp"
-#include "mesh/ray_scene.hpp"
 #include "mesh/samples.hpp"
 
 namespace rejoin::mesh::detail {
@@ -20,11 +19,14 @@ constexpr double kSeen = 0.5;     // more of those from its back leave
 }  // namespace
 
 Outlook outlook(const Mesh& mesh) {
-  const Samples samples = sample_surface(mesh, kPlaces);
-  const RayScene scene(mesh);
+  return outlook(mesh, RayScene(mesh), diameter(mesh));
+}
+
+Outlook outlook(const Mesh& part, const RayScene& whole, double size) {
+  const Samples samples = sample_surface(part, kPlaces);
   const std::vector<glm::vec3> directions = half_sphere_directions(kDirections);
-  const auto size = static_cast<float>(diameter(mesh));
-  const float near = 1e-5F * size;
+  const auto near = static_cast<float>(1e-5 * size);
+  const auto far = static_cast<float>(2.0 * size);
   std::atomic<std::size_t> front{0};
   std::atomic<std::size_t> back{0};
   parallel_for(samples.size(), 16, [&](std::size_t first, std::size_t last) {
@@ -32,8 +34,8 @@ Outlook outlook(const Mesh& mesh) {
       const glm::mat3 frame = frame_about(samples.normals[i]);
       for (const glm::vec3& direction : directions) {
         const glm::vec3 out = frame * direction;
-        if (!scene.first_hit(samples.points[i], out, near, 2 * size)) ++front;
-        if (!scene.first_hit(samples.points[i], -out, near, 2 * size)) ++back;
+        if (!whole.first_hit(samples.points[i], out, near, far)) ++front;
+        if (!whole.first_hit(samples.points[i], -out, near, far)) ++back;
       }
     }
   });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mesh/mesh.hpp"
+#include "mesh/ray_scene.hpp"
 
 namespace rejoin::mesh::detail {
 
@@ -15,6 +16,11 @@ struct Outlook {
 /// faces change the shares only by what can be seen through the gaps.
 /// \pre the mesh has faces, and an area
 Outlook outlook(const Mesh& mesh);
+
+/// The same of a part of a surface, with all of it in the way.
+/// \param whole  of the surface
+/// \param size   its diameter
+Outlook outlook(const Mesh& part, const RayScene& whole, double size);
 
 /// Whether the surface is inside out: next to nothing can be seen from its front, all that can be seen is its back.  No scanner
 /// records such a surface; one that was scanned from one side alone, whatever its shape, is not taken for it.
