@@ -107,13 +107,14 @@ void centre_on_silhouettes(SearchSpace& space, zbuffer::Scorer& scorer, double v
   std::vector<glm::dvec2> shifts;
   std::optional<glm::dvec2> last_px;
   space.shift_of_rho.clear();
-  for (int k = 0; k < samples; ++k) {
+  // The first of two rounds tells what the first shift of the second one must lie near, as that is mixed with the last one, too.
+  for (int k = 0; k < 2 * samples; ++k) {
     PoseVector pose{};
-    pose[kRho1] = kTurn * k / samples;
+    pose[kRho1] = kTurn * (k % samples) / samples;
     const auto [a, b] = scorer.depth_maps(space.view(pose));
     // Between two rotations shifts are mixed: on from one to the next they must not jump across a hole.
     last_px = best_silhouette_shift(a, b, last_px).shift_px;
-    shifts.push_back(*last_px * (view_side / a.width));
+    if (k >= samples) shifts.push_back(*last_px * (view_side / a.width));
   }
   space.shift_of_rho = std::move(shifts);
 }

@@ -17,7 +17,7 @@ struct CandidateDirection {
 /// facets where none counts as fracture) of at least a twentieth of the largest one's area, roughest first; or those of all facets
 /// that are named.
 /// \param given    any length but 0, file axes
-/// \param named    facets that may join whatever their size, roughest first; empty: any
+/// \param named    facets that may join whatever their size; empty: any.  \pre the fragment has them
 /// \param most     how many directions are taken from facets that are not named
 /// \return empty if nothing is given and the fragment has no such facet
 /// \source papaioannou 2002, section 6.2

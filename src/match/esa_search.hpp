@@ -21,13 +21,14 @@ enum class MapSource {
 /// Settings beyond those of match::Options.
 struct EsaOptions {
   MapSource maps = MapSource::Fragment;
-  EnergyRule rule;                  ///< material_axes are filled in by the search
-  int directions_per_fragment = 4;  ///< taken from the roughest facets where none are given
-  int silhouette_rotations = 24;    ///< rotations for which the silhouettes are centred
-  double shift_range = 0.1;         ///< bound of |x1| and |y1| as a fraction of R
-  double jitter_deg = 5.0;          ///< of the locked angles under a material axis
-  anneal::Options annealing;        ///< chains, seed and first_stream are filled in by the search
-  bool every_chain = false;         ///< return the end of every chain, in order of combination and chain
+  EnergyRule rule;  ///< material_axes are filled in by the search, which takes it at_resolution()
+  int directions_per_fragment =
+      4;  ///< taken from the roughest facets where neither directions nor facets are given
+  int silhouette_rotations = 24;  ///< rotations for which the silhouettes are centred
+  double shift_range = 0.1;       ///< bound of |x1| and |y1| as a fraction of R
+  double jitter_deg = 5.0;        ///< of the locked angles under a material axis
+  anneal::Options annealing;      ///< chains, seed and first_stream are filled in by the search
+  bool every_chain = false;       ///< return the end of every chain, in order of combination and chain
 };
 
 /// Where one annealing chain ended.

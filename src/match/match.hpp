@@ -111,7 +111,7 @@ Fragment prepare(std::string path, mesh::Mesh scan, const Context& context);
 
 /// The same from the surface as `rejoin batch` keeps it, so that facets have the same numbers and joints the same scores there:
 /// these depend a little on the order of the vertices.
-/// \throws InputError  as surface_of(), or as mesh::as_kept()
+/// \throws InputError, IoError  as surface_of() and mesh::as_kept()
 Fragment prepare_as_kept(std::string path, mesh::Mesh scan, const Context& context);
 
 /// Poses B -> A in the files' coordinates and relative to the meshes' origins, where the matcher computes.

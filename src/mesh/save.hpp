@@ -37,6 +37,7 @@ void save(const std::filesystem::path& path, const Mesh& mesh);
 /// What save() to a .drc and load() would give back: `rejoin batch` keeps its scans so.
 /// \param name  for messages
 /// \throws InputError  next to nothing is left at a millionth of its size
+/// \throws IoError     the encoder failed
 Mesh as_kept(const Mesh& mesh, const std::string& name);
 
 /// Writes several placed meshes: .glb gives one named node a mesh, with its transform; .ply and .obj give one

@@ -5,7 +5,6 @@
 
 #include "core/cyclic.hpp"
 #include "core/error.hpp"
-#include "core/median.hpp"
 #include "core/parallel.hpp"
 #include "outline/contact.hpp"
 #include "outline/detail/odds.hpp"
@@ -53,7 +52,7 @@ class EmdMatcher final : public Matcher {
     if (pieces.empty()) return;
     perimeters_.clear();
     for (const Piece& piece : pieces) perimeters_.push_back(perimeter(piece.outline.points));
-    const double length = median(perimeters_);
+    const double length = median_perimeter(pieces);
     if (!(length > 0.0)) throw InputError(pieces[0].name, "has a border of no length", "give an outline");
     for (const double samples : options_.samples) {
       std::vector<std::unique_ptr<ScaledPiece>> scaled(pieces.size());
@@ -72,11 +71,9 @@ class EmdMatcher final : public Matcher {
 
   PairResult match(std::size_t a, std::size_t b, const Context& context) const override {
     // The stretches grow along the first border, and B is laid on A: the answer must not depend on which comes first.
-    if (perimeters_[a] <= perimeters_[b]) return match_in_order(a, b, context);
-    PairResult result = match_in_order(b, a, context);
-    for (JoinCandidate& candidate : result.candidates)
-      candidate = exchanged(candidate, perimeters_[b], perimeters_[a]);
-    return result;
+    return shorter_first(a, b, perimeters_, [&](std::size_t first, std::size_t second) {
+      return match_in_order(first, second, context);
+    });
   }
 
  private:

@@ -56,16 +56,18 @@ double wrapped_place(double place, double perimeter) {
 double automatic_step(const std::vector<Piece>& pieces) {
   std::vector<double> edges;
   double length = 0.0;
+  std::size_t simplified = 0;
   for (const Piece& piece : pieces) {
     const std::vector<double> lengths = arc_lengths(piece.outline.points);
     length += lengths.back();
-    for (std::size_t i = 0; i + 1 < lengths.size(); ++i) edges.push_back(lengths[i + 1] - lengths[i]);
+    std::vector<double> own;
+    for (std::size_t i = 0; i + 1 < lengths.size(); ++i) own.push_back(lengths[i + 1] - lengths[i]);
+    edges.insert(edges.end(), own.begin(), own.end());
+    if (!piece.outline.of_pixels && quantile(own, kShortEdges) < kUneven * median(own)) ++simplified;
   }
   const double finest = length / static_cast<double>(pieces.size()) / kMostSamples;
-  const double usual = median(edges);
-  if (!any_of_pixels(pieces) && quantile(edges, kShortEdges) < kUneven * usual)
-    return std::max(std::min(kStepInEdges * usual, kStepOfSimplified * finest), finest);
-  return std::max(kStepInEdges * usual, finest);
+  const double usual = std::max(kStepInEdges * median(edges), finest);
+  return 2 * simplified > pieces.size() ? std::min(usual, kStepOfSimplified * finest) : usual;
 }
 
 struct JoinFitter::State {

@@ -74,11 +74,9 @@ class LcsMatcher final : public Matcher {
 
   PairResult match(std::size_t a, std::size_t b, const Context& context) const override {
     // B is laid on A, which keeps its samples: the answer must not depend on which comes first.
-    if (perimeters_[a] <= perimeters_[b]) return match_in_order(a, b, context);
-    PairResult result = match_in_order(b, a, context);
-    for (JoinCandidate& candidate : result.candidates)
-      candidate = exchanged(candidate, perimeters_[b], perimeters_[a]);
-    return result;
+    return shorter_first(a, b, perimeters_, [&](std::size_t first, std::size_t second) {
+      return match_in_order(first, second, context);
+    });
   }
 
  private:

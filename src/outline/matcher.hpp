@@ -25,4 +25,16 @@ class Matcher {
   virtual PairResult match(std::size_t a, std::size_t b, const Context& context) const = 0;
 };
 
+/// What a search says of two pieces that takes the one with the shorter border first, so that the answer is the same for B and A.
+/// \param search  (first, second) -> PairResult
+template <typename Search>
+PairResult shorter_first(std::size_t a, std::size_t b, const std::vector<double>& perimeters,
+                         const Search& search) {
+  if (perimeters[a] <= perimeters[b]) return search(a, b);
+  PairResult result = search(b, a);
+  for (JoinCandidate& candidate : result.candidates)
+    candidate = exchanged(candidate, perimeters[b], perimeters[a]);
+  return result;
+}
+
 }  // namespace rejoin::outline

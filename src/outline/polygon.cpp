@@ -20,6 +20,7 @@ constexpr double kMostLoopArea = 0.02;
 constexpr std::size_t kLeastPoints = 4;
 /// With more loops, and more than one at every fourth point, the file is no outline.
 constexpr std::size_t kMostLoops = 500;
+constexpr std::size_t kPointsALoop = 4;
 
 /// Edges sorted into square cells, so that only near ones are compared.
 class EdgeGrid {
@@ -117,10 +118,15 @@ class Loops {
   /// Edges that are left.
   std::size_t size() const { return left_; }
 
-  /// The first edge that meets a later one, and the first of those that it meets.  Edges before it are not looked at again, as
-  /// cutting makes none longer.
+  /// The next edge that meets a later one, and the first of those that it meets.  Cutting makes no edge longer, so those before it are
+  /// looked at again in the end alone: a cut's rounding may have turned an edge that lay along another.
   std::optional<Crossing> next_crossing() {
-    for (; at_ < begins_.size(); ++at_) {
+    for (;; ++at_) {
+      if (at_ == begins_.size()) {
+        if (!is_cut_) return std::nullopt;
+        is_cut_ = false;
+        at_ = 0;
+      }
       if (!is_left_[at_]) continue;
       std::optional<Crossing> found;
       grid_.visit_later(at_, [&](std::size_t j) {
@@ -130,16 +136,22 @@ class Loops {
       });
       if (found) return found;
     }
-    return std::nullopt;
   }
 
   /// Cuts off the smaller of the two loops at a crossing.
   /// \return its area, as a share of the other one's
   double cut(const Crossing& at) {
     const auto& [i, j, point] = at;
+    // Both loops are followed in step until the shorter one ends.
     double inner = doubled_area(point, ends_[i]) + doubled_area(begins_[j], point);
-    for (std::size_t k = after_[i]; k != j; k = after_[k]) inner += doubled_area(begins_[k], ends_[k]);
-    const double outer = doubled_area_ - inner;
+    double outer = doubled_area(point, ends_[j]) + doubled_area(begins_[i], point);
+    std::size_t in = after_[i];
+    std::size_t out = after_[j];
+    for (; in != j && out != i; in = after_[in], out = after_[out]) {
+      inner += doubled_area(begins_[in], ends_[in]);
+      outer += doubled_area(begins_[out], ends_[out]);
+    }
+    (in == j ? outer : inner) = doubled_area_ - (in == j ? inner : outer);
     const bool inner_smaller = std::abs(inner) < std::abs(outer);
     const std::size_t first =
         inner_smaller ? i : j;  // the loop lies between the end of this and the begin of the other
@@ -147,6 +159,7 @@ class Loops {
     while (after_[first] != last) take_out(after_[first]);
     ends_[first] = point;
     begins_[last] = point;
+    is_cut_ = true;
     doubled_area_ = inner_smaller ? outer : inner;
     for (const std::size_t edge : {first, last})
       if (begins_[edge] == ends_[edge]) take_out(edge);
@@ -183,12 +196,13 @@ class Loops {
   double doubled_area_ = 0.0;
   std::size_t left_;
   std::size_t at_ = 0;
+  bool is_cut_ = false;  ///< since at_ was 0
 };
 
 /// \param notes  gets a sentence if loops were cut off
 /// \throws InputError  one is too large, or there are too many
 Polygon without_loops(const Polygon& polygon, const std::string& subject, std::vector<std::string>& notes) {
-  const std::size_t most = std::max(kMostLoops, polygon.size() / kLeastPoints);
+  const std::size_t most = std::max(kMostLoops, polygon.size() / kPointsALoop);
   Loops left(polygon);
   std::size_t loops = 0;
   while (left.size() >= kLeastPoints) {
