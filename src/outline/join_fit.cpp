@@ -36,10 +36,10 @@ constexpr double kResidual = 0.3;
 /// The automatic step leaves at most this many samples on the mean border.
 constexpr double kMostSamples = 3000.0;
 constexpr double kStepInEdges = 1.4;
-/// Outlines that were simplified have points where they bend and long edges between, a tenth of them this much shorter than the median (of
-/// those from scans 0.64 to 0.74): how far apart the points lie says nothing of how exact they are.
-constexpr double kShortEdges = 0.1;
-constexpr double kUneven = 0.55;
+/// Outlines that were simplified have points where they bend and long edges between, a tenth of them this much longer than the median:
+/// how far apart the points lie says nothing of how exact they are.  Where noise alone makes edges uneven it is 1.82 (Rayleigh).
+constexpr double kLongEdges = 0.9;
+constexpr double kUneven = 1.9;
 constexpr double kStepOfSimplified = 2.0;  // the finest steps
 constexpr double kSameAngle = 5.0 * M_PI / 180.0;
 /// See score_of().
@@ -63,7 +63,7 @@ double automatic_step(const std::vector<Piece>& pieces) {
     std::vector<double> own;
     for (std::size_t i = 0; i + 1 < lengths.size(); ++i) own.push_back(lengths[i + 1] - lengths[i]);
     edges.insert(edges.end(), own.begin(), own.end());
-    if (!piece.outline.of_pixels && quantile(own, kShortEdges) < kUneven * median(own)) ++simplified;
+    if (!piece.outline.of_pixels && quantile(own, kLongEdges) > kUneven * median(own)) ++simplified;
   }
   const double finest = length / static_cast<double>(pieces.size()) / kMostSamples;
   const double usual = std::max(kStepInEdges * median(edges), finest);
