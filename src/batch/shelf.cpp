@@ -85,11 +85,12 @@ mesh::Mesh read_and_keep(const store::Fragment& fragment, const fs::path& cache,
   warnings = std::move(loaded.warnings);
   require_body(loaded.mesh, fragment.path);
   const mesh::Mesh surface = match::surface_of(fragment.path, std::move(loaded.mesh));
-  mesh::Mesh kept = mesh::as_kept(surface, fragment.path);
   keep(kept_file(fragment, cache), surface);
+  std::optional<mesh::Mesh> kept = read_if_whole(kept_file(fragment, cache));
+  if (!kept) return mesh::as_kept(surface, fragment.path);  // tells what is wrong with it
   std::error_code ignored;
   for (const fs::path& file : kept_by_others(fragment, cache)) fs::remove(file, ignored);
-  return kept;
+  return std::move(*kept);
 }
 
 struct Outcome {

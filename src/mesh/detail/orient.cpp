@@ -177,9 +177,10 @@ std::vector<std::vector<std::uint32_t>> large_parts(const Mesh& mesh) {
   double whole = 0;
   for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
     auto& [area, faces] = by_first_vertex[parts.of(mesh.faces[f].x)];
+    const double own = doubled_area(mesh, mesh.faces[f]);
     faces.push_back(f);
-    area += doubled_area(mesh, mesh.faces[f]);
-    whole += doubled_area(mesh, mesh.faces[f]);
+    area += own;
+    whole += own;
   }
   std::vector<std::vector<std::uint32_t>> list;
   for (auto& [vertex, part] : by_first_vertex)

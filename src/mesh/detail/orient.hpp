@@ -15,7 +15,8 @@ struct Turned {
 
 /// Winds faces as their neighbours across two-faced edges (of every connected part the larger area stays),
 /// then turns a surface outwards: a closed one if it encloses a negative volume, an open one if next to nothing of its front can
-/// be seen (outlook.hpp), and so each of several parts that hang together in no vertex.  A surface that cannot be wound consistently (a Moebius strip) stays as it is.
+/// be seen (outlook.hpp), and so each of several parts that hang together in no vertex.  A surface that cannot be wound
+/// consistently (a Moebius strip) stays as it is.
 /// \pre the mesh has an area
 Turned orient_faces(Mesh& mesh);
 
