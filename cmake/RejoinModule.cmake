@@ -1,5 +1,6 @@
-# rejoin_module(NAME SOURCES ... [PUBLIC ...] [PRIVATE ...])
-#   A static library rejoin_NAME, alias rejoin::NAME, with the project's warnings and number rules.
+# rejoin_module(NAME SOURCES ... [ALONE ...] [PUBLIC ...] [PRIVATE ...])
+#   A static library rejoin_NAME, alias rejoin::NAME, with the project's warnings and number rules.  ALONE are sources that others cannot be compiled
+#   with as one (CMAKE_UNITY_BUILD): kernels that include themselves for each processor, headers with macros.
 # rejoin_test(NAME SOURCES ... LIBS ... [LABELS ...])
 #   A GoogleTest program; each TEST becomes a CTest entry (with REJOIN_FAST_TESTS each fast program).  LABELS default to "fast".
 
@@ -8,11 +9,12 @@ target_compile_options(rejoin_warnings INTERFACE -Wall -Wextra -Wpedantic -ffp-c
                        $<$<BOOL:${REJOIN_WERROR}>:-Werror>)
 
 function(rejoin_module name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
-  add_library(rejoin_${name} STATIC ${ARG_SOURCES})
+  cmake_parse_arguments(ARG "" "" "SOURCES;ALONE;PUBLIC;PRIVATE" ${ARGN})
+  add_library(rejoin_${name} STATIC ${ARG_SOURCES} ${ARG_ALONE})
   add_library(rejoin::${name} ALIAS rejoin_${name})
   target_include_directories(rejoin_${name} PUBLIC ${CMAKE_SOURCE_DIR}/src)
   target_link_libraries(rejoin_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE} rejoin_warnings)
+  set_source_files_properties(${ARG_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
 function(rejoin_test name)

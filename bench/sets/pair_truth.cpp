@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
+#include "core/angle.hpp"
 #include "mesh/point_index.hpp"
 #include "mesh/samples.hpp"
 
 namespace rejoin::bench {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kFoundAngle = 5 * kDegree;
 constexpr double kFoundDisplacement = 0.02;
 constexpr double kPreciseAngle = 1 * kDegree;

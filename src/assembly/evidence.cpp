@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/angle.hpp"
 #include "match/refine.hpp"
 #include "match/stability.hpp"
 #include "match/verify.hpp"
@@ -10,15 +11,14 @@
 namespace rejoin::assembly {
 namespace {
 
-constexpr double kMost = 12.0;
-constexpr double kDegree = 0.017453292519943295;
+constexpr double kMostOdds = 12.0;
 
 }  // namespace
 
 double log_odds(double score) {
-  if (!(score > 0.0)) return -kMost;
-  if (score >= 1.0) return kMost;
-  return std::clamp(std::log(score / (1.0 - score)), -kMost, kMost);
+  if (!(score > 0.0)) return -kMostOdds;
+  if (score >= 1.0) return kMostOdds;
+  return std::clamp(std::log(score / (1.0 - score)), -kMostOdds, kMostOdds);
 }
 
 match::Evidence contact_evidence(const Piece& a, const Piece& b, const Rigid& b_to_a) {

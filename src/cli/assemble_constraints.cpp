@@ -19,18 +19,19 @@ using nlohmann::ordered_json;
 using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
 using NamedPairs = NamedConstraints::Pairs;
 
-constexpr const char* kMend = "see \"Constraints\" in docs/box-of-sherds.md";
+constexpr const char* kConstraintsMend = "see \"Constraints\" in docs/box-of-sherds.md";
 
-class Reader {
+class ConstraintsReader {
  public:
-  Reader(const ConstraintsFile& file, const std::vector<std::string>& names,
-         const std::map<std::string, std::string>& unusable, const std::map<std::string, std::string>& copies)
+  ConstraintsReader(const ConstraintsFile& file, const std::vector<std::string>& names,
+                    const std::map<std::string, std::string>& unusable,
+                    const std::map<std::string, std::string>& copies)
       : path_(file.path), text_(file.text), names_(names), unusable_(unusable), copies_(copies) {}
 
   AskedConstraints read() {
     const ordered_json json = parsed();
     if (json.is_discarded())
-      throw InputError(path_, fmt::format("is no JSON ({})", json_fault(text_)), kMend);
+      throw InputError(path_, fmt::format("is no JSON ({})", json_fault(text_)), kConstraintsMend);
     if (!json.is_object()) fail("is no JSON object");
     for (const auto& [key, value] : json.items()) {
       if (key != "must_join" && key != "must_not_join" && key != "poses")
@@ -61,7 +62,9 @@ class Reader {
     return json;
   }
 
-  [[noreturn]] void fail(const std::string& problem) const { throw InputError(path_, problem, kMend); }
+  [[noreturn]] void fail(const std::string& problem) const {
+    throw InputError(path_, problem, kConstraintsMend);
+  }
 
   /// The fragment that stands for a name: of a copy that of its content.
   const std::string& meant(const std::string& name) const {
@@ -164,13 +167,13 @@ class Reader {
 }  // namespace
 
 ConstraintsFile open_constraints(const std::string& path) {
-  return {path, read_json_text(path, kMend)};
+  return {path, read_json_text(path, kConstraintsMend)};
 }
 
 AskedConstraints read_constraints(const ConstraintsFile& file, const std::vector<std::string>& names,
                                   const std::map<std::string, std::string>& unusable,
                                   const std::map<std::string, std::string>& copies) {
-  return Reader(file, names, unusable, copies).read();
+  return ConstraintsReader(file, names, unusable, copies).read();
 }
 
 }  // namespace rejoin::cli

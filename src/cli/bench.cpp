@@ -53,7 +53,7 @@ std::string table(const Ratios& ratios) {
   return text;
 }
 
-std::string to_json(const Rows& rows, const Ratios& ratios) {
+std::string rows_json(const Rows& rows, const Ratios& ratios) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const zbuffer::BenchmarkRow& row : rows) {
     list.push_back({{"backend", zbuffer::name_of(row.backend)},
@@ -112,7 +112,7 @@ class BenchCommand final : public Command {
     }
     const Rows rows = zbuffer::benchmark(options_, context);
     const Ratios ratios = zbuffer::ratios_of(rows);
-    if (json_) write_file(*json_, to_json(rows, ratios));
+    if (json_) write_file(*json_, rows_json(rows, ratios));
     console.result(machine() + "\n" + table(rows) + table(ratios));
     if (json_) console.wrote(*json_);
     if (context.cancelled()) console.warning("interrupted; what was not measured has no row");

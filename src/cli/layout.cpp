@@ -17,15 +17,18 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr const char* kMend = "see \"A rough layout\" in docs/box-of-sherds.md";
+constexpr const char* kLayoutMend = "see \"A rough layout\" in docs/box-of-sherds.md";
 constexpr const char* kNoScale =
     "in MeshLab, take back what scales or mirrors (Reset Matrix), lay the piece again with turns and shifts "
     "alone and save the project";
 
-class Reader {
+class LayoutReader {
  public:
-  Reader(const std::string& path, const batch::Scans& scans)
-      : path_(path), scans_(scans), names_(batch::names_of(scans)), text_(read_json_text(path, kMend)) {}
+  LayoutReader(const std::string& path, const batch::Scans& scans)
+      : path_(path),
+        scans_(scans),
+        names_(batch::names_of(scans)),
+        text_(read_json_text(path, kLayoutMend)) {}
 
   LaidScans read() {
     const std::size_t first = text_.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
@@ -39,7 +42,7 @@ class Reader {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& problem, const char* mend = kMend) const {
+  [[noreturn]] void fail(const std::string& problem, const char* mend = kLayoutMend) const {
     throw InputError(path_, problem, mend);
   }
 
@@ -145,7 +148,7 @@ class Reader {
 }  // namespace
 
 LaidScans read_layout(const std::string& path, const batch::Scans& scans) {
-  return Reader(path, scans).read();
+  return LayoutReader(path, scans).read();
 }
 
 }  // namespace rejoin::cli

@@ -23,7 +23,7 @@ using nlohmann::ordered_json;
 constexpr const char* kSchema = "rejoin.outline-calibration/1";
 constexpr const char* kResolution = "dots_per_inch";
 constexpr const char* kRecalibrate = "calibrate with pieces of their resolution and unit";
-constexpr const char* kMend = "give the JSON of rejoin outline calibrate";
+constexpr const char* kCalibrationMend = "give the JSON of rejoin outline calibrate";
 /// Of xi, zeta and n_min; calibrate() finds 24 at most.
 constexpr double kMostOfALevel = 1000.0;
 /// With steps that are this many times those of the pieces, or this part of them, joins begin to be lost;
@@ -106,7 +106,7 @@ std::map<std::string, Placed> placed_pieces(const std::string& path, const order
 /// nullopt: the calibration's pieces had the resolution of these, or one of the two is not known
 std::optional<std::string> doubt_resolution(const std::string& path,
                                             const std::vector<outline::Piece>& pieces) {
-  const ordered_json json = parse_file(path, kMend);
+  const ordered_json json = parse_file(path, kCalibrationMend);
   const auto told = json.find(kResolution);
   if (told == json.end() || !told->is_number()) return std::nullopt;
   const double before = told->get<double>();
@@ -158,18 +158,19 @@ std::string calibration_json(const std::vector<outline::CalibratedLevel>& levels
 }
 
 void read_calibration(const std::string& path, outline::MultiscaleOptions& options) {
-  const ordered_json json = parse_file(path, kMend);
+  const ordered_json json = parse_file(path, kCalibrationMend);
   if (json.value("schema", ordered_json()) != kSchema || !json.contains("levels") ||
       !json["levels"].is_array() || json["levels"].empty())
-    throw InputError(path, "is no calibration", kMend);
+    throw InputError(path, "is no calibration", kCalibrationMend);
   options.levels.clear();
   for (const ordered_json& level : json["levels"]) {
     for (const char* key : {"step", "xi", "zeta", "n_min"}) {
       if (!level.is_object() || !level.contains(key) || !level[key].is_number() ||
           !(level[key].get<double>() >= 0.0))
-        throw InputError(path, std::string("a level has no \"") + key + "\"", kMend);
+        throw InputError(path, std::string("a level has no \"") + key + "\"", kCalibrationMend);
       if (std::string_view(key) != "step" && level[key].get<double>() > kMostOfALevel)
-        throw InputError(path, fmt::format("a level's \"{}\" is above {}", key, kMostOfALevel), kMend);
+        throw InputError(path, fmt::format("a level's \"{}\" is above {}", key, kMostOfALevel),
+                         kCalibrationMend);
     }
     if (options.levels.empty()) options.step = level["step"].get<double>();
     options.levels.push_back(

@@ -43,14 +43,14 @@ ordered_json candidate_json(const outline::Piece& a, const outline::Piece& b,
           {"gap_area", areas.gap},           {"overlap_area", areas.overlap}};
 }
 
-ordered_json to_json(const std::vector<outline::LeftOut>& list) {
+ordered_json left_out_json(const std::vector<outline::LeftOut>& list) {
   ordered_json json = ordered_json::array();
   for (const outline::LeftOut& one : list) json.push_back({{"name", one.name}, {"reason", one.reason}});
   return json;
 }
 
-ordered_json to_json(const std::vector<outline::Piece>& pieces,
-                     const std::vector<outline::AssemblyRival>& list) {
+ordered_json rivals_json(const std::vector<outline::Piece>& pieces,
+                         const std::vector<outline::AssemblyRival>& list) {
   ordered_json json = ordered_json::array();
   for (const outline::AssemblyRival& one : list)
     json.push_back({{"name", pieces[one.piece].name}, {"at", pieces[one.at].name}, {"score", one.score}});
@@ -107,7 +107,7 @@ std::string assembly_json(const outline::PieceSet& set, const outline::Assembly&
                      {"score", join.score},
                      {"contact", join.contact},
                      {"proposed", join.proposed},
-                     {"rivals", to_json(pieces, join.rivals)}});
+                     {"rivals", rivals_json(pieces, join.rivals)}});
   }
   ordered_json touches = ordered_json::array();
   for (const outline::AssemblyJoin& touch : assembly.touches)
@@ -130,11 +130,11 @@ std::string assembly_json(const outline::PieceSet& set, const outline::Assembly&
       {"touches", touches},
       {"unplaced", unplaced},
       {"untried", untried},
-      {"unusable", to_json(set.unusable)},
-      {"repeated", to_json(set.repeated)},
-      {"left_out", to_json(set.left_out)},
+      {"unusable", left_out_json(set.unusable)},
+      {"repeated", left_out_json(set.repeated)},
+      {"left_out", left_out_json(set.left_out)},
       {"congruent", congruent},
-      {"refused", to_json(pieces, assembly.refused)},
+      {"refused", rivals_json(pieces, assembly.refused)},
       {"rms", assembly.rms},
       {"search",
        {{"method", search.method}, {"seconds", search.seconds}, {"interrupted", search.interrupted}}},

@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr const char* kMend = "give the JSON of rejoin match, or four rows of four numbers";
+constexpr const char* kPoseMend = "give the JSON of rejoin match, or four rows of four numbers";
 
 /// What spreadsheets and people add to a matrix, as blanks.
 std::string without_commas_and_comments(std::string text) {
@@ -66,15 +66,15 @@ bool is_of_swapped(const ordered_json& json, const std::string& path_a, const st
 
 /// The file's pose, and its JSON.
 std::pair<Rigid, ordered_json> pose_and_json(const std::string& path) {
-  const std::string text = read_json_text(path, kMend);
+  const std::string text = read_json_text(path, kPoseMend);
   ordered_json json = ordered_json::parse(text, nullptr, false);
   if (json.is_discarded()) json = rows_of_numbers(std::string(without_byte_order_mark(text)));
-  if (json.is_discarded()) throw InputError(path, "is neither JSON nor a matrix of 4 x 4 numbers", kMend);
+  if (json.is_discarded()) throw InputError(path, "is neither JSON nor a matrix of 4 x 4 numbers", kPoseMend);
   if (json.is_object() && json.value("schema", ordered_json()) == "rejoin.assembly/1") refuse_assembly(path);
   const bool named = json.is_object() && json.contains("pose");
   const ordered_json& rows = named ? json["pose"] : json;
   const std::optional<Rigid> pose = rigid_from_json(rows);
-  if (!pose) throw InputError(path, (named ? "\"pose\" " : "") + why_no_rigid(rows), kMend);
+  if (!pose) throw InputError(path, (named ? "\"pose\" " : "") + why_no_rigid(rows), kPoseMend);
   return {*pose, std::move(json)};
 }
 

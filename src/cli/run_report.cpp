@@ -35,10 +35,10 @@ using Numbers = std::map<std::string, std::size_t>;
 constexpr const char* kGapFigure = "median gap";
 constexpr const char* kContactFigure = "contact area";
 
-constexpr const char* kMend = "make it again with rejoin assemble";
+constexpr const char* kStaleMend = "make it again with rejoin assemble";
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& problem) {
-  throw InputError(path.string(), problem, kMend);
+  throw InputError(path.string(), problem, kStaleMend);
 }
 
 /// Takes poses, groups and joins over from the assembly.
@@ -61,7 +61,7 @@ class AssemblyReader {
 
  private:
   std::string read_fields() {
-    const ordered_json json = ordered_json::parse(read_json_text(path_.string(), kMend), nullptr, false);
+    const ordered_json json = ordered_json::parse(read_json_text(path_.string(), kStaleMend), nullptr, false);
     if (!json.is_object() || json.value("schema", "") != "rejoin.assembly/1")
       refuse(path_, "is no assembly (schema rejoin.assembly/1)");
     if (!json.contains("fragments") || !json["fragments"].is_object()) refuse(path_, "has no \"fragments\"");

@@ -101,7 +101,7 @@ std::string table_of(const std::string& path, const std::vector<mesh::Mesh>& pie
   return text;
 }
 
-ordered_json to_json(const std::string& path, const mesh::Split& split) {
+ordered_json split_json(const std::string& path, const mesh::Split& split) {
   ordered_json pieces = ordered_json::array();
   for (const mesh::Mesh& piece : split.pieces) {
     const mesh::Box box = mesh::bounds(piece);
@@ -210,7 +210,7 @@ class SplitCommand final : public Command {
       mesh::save(output.file(file_name(path, k + 1)), split.pieces[k]);
     const bool table_is_asked = options_.table != mesh::SplitOptions::TableUse::No;
     console.result(summary(path, scan.mesh, split, table_is_asked) + table_of(path, split.pieces));
-    result_.push_back(to_json(path, split));
+    result_.push_back(split_json(path, split));
     result_.back()["warnings"] = scan.warnings;
     if (png_) pictures_.push_back(report::split_picture(path, split.pieces));
     return true;

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "core/angle.hpp"
 #include "core/error.hpp"
 #include "match/silhouette.hpp"
 
 namespace rejoin::match {
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
 // A range must not be empty; a hundredth of a degree is far below what a depth map shows.
 constexpr double kLeastAngle = 1.7e-4;
 const glm::dvec3 kZ(0, 0, 1);

@@ -6,12 +6,12 @@
 #include <memory>
 #include <utility>
 
+#include "core/angle.hpp"
 #include "mesh/surface.hpp"
 
 namespace rejoin::match {
 namespace {
 
-constexpr double kRadians = 3.14159265358979323846 / 180;
 constexpr double kViewToDiameter = 1.3;
 constexpr std::size_t kMapFaces =
     10000;  // the paper's figure; docs/performance.md has what it does to errors
@@ -128,7 +128,7 @@ void EsaRun::search_whole() {
   if (plan_.material == MaterialUse::Restrict) {
     for (const bool opposite : {false, true}) {
       list.push_back(
-          {.space = material_space(*options_.material_a, *options_.material_b, esa_.jitter_deg * kRadians,
+          {.space = material_space(*options_.material_a, *options_.material_b, esa_.jitter_deg * kDegree,
                                    reach(larger_diameter()), opposite)});
     }
   } else {
@@ -146,7 +146,7 @@ std::vector<Combination> EsaRun::combinations(double reach) const {
   for (std::size_t m = 0; m < of_a.size(); ++m) {
     for (std::size_t n = 0; n < of_b.size(); ++n) {
       list.push_back(
-          {direction_space(of_a[m].direction, of_b[n].direction, options_.tolerance_deg * kRadians, reach),
+          {direction_space(of_a[m].direction, of_b[n].direction, options_.tolerance_deg * kDegree, reach),
            static_cast<int>(m), static_cast<int>(n), of_a[m].facet, of_b[n].facet});
     }
   }
@@ -196,7 +196,7 @@ void EsaRun::search_facets(const std::vector<Combination>& list) {
     const Alignment alignment = c.space.alignment;
     c.space =
         direction_space(glm::transpose(alignment.rotation_a) * up, glm::transpose(alignment.rotation_b) * up,
-                        options_.tolerance_deg * kRadians, reach(diameter));
+                        options_.tolerance_deg * kDegree, reach(diameter));
     centre_on_silhouettes(c.space, *stand.scorer, stand.view_side, esa_.silhouette_rotations);
     anneal(stand, {c});
   }
@@ -305,7 +305,7 @@ zbuffer::ViewOptions whole_fragment_view(const Fragment& a, const Fragment& b, i
 }
 
 bool same_pose(const Rigid& first, const Rigid& second, const glm::dvec3& centre_b, double diameter) {
-  constexpr double kAngle = 5 * kRadians;
+  constexpr double kAngle = 5 * kDegree;
   constexpr double kDistance = 0.02;
   return angle_between(first, second) <= kAngle &&
          glm::length(first(centre_b) - second(centre_b)) <= kDistance * diameter;

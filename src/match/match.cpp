@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "core/angle.hpp"
 #include "core/stopwatch.hpp"
 #include "match/align.hpp"
 #include "match/constraints.hpp"
@@ -22,7 +23,6 @@
 namespace rejoin::match {
 namespace {
 
-constexpr double kDegree = 0.017453292519943295;
 constexpr std::size_t kGlance = 2;  // rounds of alignment after which poses are about as strong as in the end
 constexpr const char* kWalls =
     "what touches has nothing behind it in either scan, so it may be the walls of sherds that were scanned "

@@ -2,12 +2,12 @@
 
 #include <cmath>
 
+#include "core/angle.hpp"
 #include "match/evidence.hpp"
 
 namespace rejoin::match {
 namespace {
 
-constexpr double kDegree = 0.017453292519943295;
 constexpr double kTilt_deg = 15.0;  // of two facets against each other at a true joint, at most
 
 /// The farthest that a turn about `centre` within the limits moves a vertex.

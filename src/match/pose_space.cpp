@@ -14,7 +14,7 @@ const glm::dvec3 kY(0, 1, 0);
 const glm::dvec3 kZ(0, 0, 1);
 
 // Half a turn about Y: B's view axes -> A's view axes.
-const glm::dmat3 kFacing(-1, 0, 0, 0, 1, 0, 0, 0, -1);
+const glm::dmat3 kFaceToFace(-1, 0, 0, 0, 1, 0, 0, 0, -1);
 
 }  // namespace
 
@@ -78,7 +78,7 @@ Rigid pose_of(const zbuffer::ViewPair& view, double offset, const ViewCentres& c
     return glm::dmat3(x, y, glm::cross(x, y));
   };
   const glm::dmat3 back = glm::transpose(orthonormal(view.rotation_a));
-  const glm::dmat3 turn = back * kFacing * orthonormal(view.rotation_b);
+  const glm::dmat3 turn = back * kFaceToFace * orthonormal(view.rotation_b);
   const glm::dvec3 place = back * (glm::dvec3(0, 0, offset) - glm::dvec3(view.shift_a, 0)) + centres.a;
   return {turn, place - turn * centres.b};
 }
@@ -88,7 +88,7 @@ FacingView facing_view(const Rigid& pose, const glm::dvec3& direction, const Vie
   const glm::dvec3 gap = turn_a * (pose(centres.b) - centres.a);
   FacingView facing;
   facing.view.rotation_a = glm::mat3(turn_a);
-  facing.view.rotation_b = glm::mat3(glm::transpose(kFacing) * turn_a * pose.rotation);
+  facing.view.rotation_b = glm::mat3(glm::transpose(kFaceToFace) * turn_a * pose.rotation);
   facing.view.shift_a = -glm::vec2(gap);
   facing.offset = gap.z;
   return facing;

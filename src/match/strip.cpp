@@ -5,12 +5,12 @@
 #include <cmath>
 #include <functional>
 
+#include "core/angle.hpp"
 #include "core/median.hpp"
 
 namespace rejoin::match {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kElongated = 3.0;  // length over width from which a facet is a strip
 constexpr double kStretch =
     0.5;  // of the shorter strip: where less than that joins, its course does not count
@@ -44,7 +44,7 @@ bool runs_around(const FacetPatch& patch) {
   for (const glm::vec3& point : patch.points) {
     const glm::dvec2 from = glm::dvec2(point) - middle;
     if (glm::length(from) < kHole * patch.across) return false;
-    const double part = std::atan2(from.y, from.x) / (2.0 * kPi) + 0.5;
+    const double part = std::atan2(from.y, from.x) / kTurn + 0.5;
     seen[std::min(kSectors - 1, static_cast<std::size_t>(part * kSectors))] = true;
   }
   return std::ranges::all_of(seen, std::identity());
@@ -135,8 +135,8 @@ std::vector<double> turns_along(const FacetPatch& a, const FacetPatch& b, double
   const double wide = std::max(a.across, b.across);
   const double length = std::max(kStretch * std::min(a.length, b.length), kElongated * wide);
   const double alike = kApart * wide / (0.25 * length * length);
-  const int count = static_cast<int>(std::ceil(2.0 * kPi / step));
-  const double turn = 2.0 * kPi / count;
+  const int count = static_cast<int>(std::ceil(kTurn / step));
+  const double turn = kTurn / count;
   const bool any = runs_around(a) || runs_around(b);
   std::vector<char> wanted(static_cast<std::size_t>(count), any ? 1 : 0);
   const std::vector<Course> of_b = courses(b, length);
@@ -144,7 +144,7 @@ std::vector<double> turns_along(const FacetPatch& a, const FacetPatch& b, double
     for (const Course& y : of_b) {
       for (const bool about : {false, true}) {
         if (std::abs(x.bow - (about ? -y.bow : y.bow)) > alike) continue;
-        const double middle = x.direction + y.direction + (about ? kPi : 0.0);
+        const double middle = x.direction + y.direction + (about ? 0.5 * kTurn : 0.0);
         const int last = static_cast<int>(std::floor((middle + kAstray) / turn));
         for (int k = static_cast<int>(std::ceil((middle - kAstray) / turn)); k <= last; ++k)
           wanted[static_cast<std::size_t>(((k % count) + count) % count)] = 1;

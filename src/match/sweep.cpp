@@ -7,6 +7,7 @@
 #include <mutex>
 #include <utility>
 
+#include "core/angle.hpp"
 #include "core/parallel.hpp"
 #include "match/cuts.hpp"
 #include "match/strip.hpp"
@@ -15,7 +16,6 @@
 namespace rejoin::match {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kAcross = 5.0;   // pixels across a strip, at least
 constexpr double kSide = 18.0;    // pixels in the root of a facet's area, at least
 constexpr double kLarger = 36.0;  // and in that of the larger facet's: a part of it may be all that joins,
@@ -44,10 +44,10 @@ double pitch_for(const FacetPatch& a, const FacetPatch& b, double resolution) {
 
 std::vector<double> turns_for(const FacetPatch& a, const FacetPatch& b, double step) {
   if (are_strips(a, b)) return turns_along(a, b, step);
-  const int count = static_cast<int>(std::ceil(2.0 * kPi / step));
+  const int count = static_cast<int>(std::ceil(kTurn / step));
   std::vector<double> turns;
   turns.reserve(static_cast<std::size_t>(count));
-  for (int k = 0; k < count; ++k) turns.push_back(2.0 * kPi * k / count);
+  for (int k = 0; k < count; ++k) turns.push_back(kTurn * k / count);
   return turns;
 }
 
@@ -172,7 +172,7 @@ std::vector<double> best_turns(const Task& task, double pitch, const std::vector
   const auto wanted =
       static_cast<std::size_t>(std::ceil(kTurnsKept * static_cast<double>(all_around.size())));
   ranked.resize(std::min(ranked.size(), std::max(kLeastTurns, wanted)));
-  const double part = 2.0 * kPi / static_cast<double>(all_around.size()) / parts;
+  const double part = kTurn / static_cast<double>(all_around.size()) / parts;
   std::vector<double> finer;
   for (const auto& [score, t] : ranked) {
     for (int k = 0; k < parts; ++k) finer.push_back(turns[t] + part * (k - 0.5 * (parts - 1)));

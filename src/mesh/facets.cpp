@@ -57,7 +57,8 @@ constexpr float kSidewards = 0.6F;
 // on at least this share of the area of a round sherd's side, whose border is the shortest.
 constexpr double kLeastSides = 0.29;
 constexpr double kLeastAcross = 5.0;  // samples across the wall, to tell
-constexpr double kFlat = 3.0;  // wall thicknesses: a flake is flatter, unlike a vessel with hardly any break
+constexpr double kVesselFlatness =
+    3.0;  // wall thicknesses: a flake is flatter, unlike a vessel with hardly any break
 
 using detail::Lists;
 
@@ -308,7 +309,8 @@ bool is_flake(const Mesh& mesh, const Segmentation& s) {
     normals.push_back(s.normals[i]);
   }
   const bool told = s.samples.spacing < s.wall_thickness / kLeastAcross;
-  if (walls.empty() || !told || least_extent(s.samples.points) > kFlat * s.wall_thickness) return false;
+  if (walls.empty() || !told || least_extent(s.samples.points) > kVesselFlatness * s.wall_thickness)
+    return false;
   const PointIndex index(walls);
   std::size_t sidewards = 0;
   for (std::size_t i = 0; i < s.samples.size(); ++i) {

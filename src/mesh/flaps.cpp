@@ -25,14 +25,14 @@ using detail::Inside;
 using detail::kNoBody;
 using detail::ThinPart;
 
-constexpr std::size_t kPlaces = 6000;
+constexpr std::size_t kLeafPlaces = 6000;
 constexpr double kMostOpen = 0.5;  // of a piece that has a body, at most, has nothing behind it
 constexpr double kLeast = 0.01;    // of the area: less keeps no pieces apart
 /// Of the piece's thickness, at most: sheets that are open, then leaves, thin ones first, as thicker parts go on into edges that run out.
 constexpr std::array kThin{0.0, 0.05, 0.1, 0.2};
-constexpr double kFree = 0.5;  // of an open flap's border, at least, is where the scan ends
-constexpr double kMost = 0.8;  // of a leaf beside its seam is no thicker than it counts
-constexpr double kWide = 6.0;  // thicknesses, at least, from where a leaf hangs to its end
+constexpr double kFree = 0.5;       // of an open flap's border, at least, is where the scan ends
+constexpr double kMost = 0.8;       // of a leaf beside its seam is no thicker than it counts
+constexpr double kLeafWidth = 6.0;  // thicknesses, at least, from where a leaf hangs to its end
 constexpr double kFine = 3.0;  // edges, at most, is a leaf thick whose own border has no shape to be known by
 constexpr float kStep = 3.0F;  // thicknesses of the leaf, at least, beside it ...
 constexpr double kAtStep = 0.9;      // ... nearly everywhere
@@ -64,7 +64,7 @@ struct Found {
 class FlapSearch {
  public:
   explicit FlapSearch(const Mesh& mesh)
-      : mesh_(mesh), inside_(mesh), places_(sample_surface(mesh, kPlaces)), area_(surface_area(mesh)) {
+      : mesh_(mesh), inside_(mesh), places_(sample_surface(mesh, kLeafPlaces)), area_(surface_area(mesh)) {
     thickness_ = thickness_of(places_.points, places_.normals);
     std::vector<float> known;
     std::ranges::copy_if(thickness_, std::back_inserter(known), [](float t) { return t < kNoBody; });
@@ -228,7 +228,7 @@ class FlapSearch {
   }
 
   bool is_leaf(const Part& at, float thickness) const {
-    if (at.part.area < kWide * static_cast<double>(thickness) * at.part.attached) return false;
+    if (at.part.area < kLeafWidth * static_cast<double>(thickness) * at.part.attached) return false;
     std::size_t all = 0;
     std::size_t thick = 0;
     for (const std::uint32_t i : at.rest) {

@@ -8,7 +8,8 @@
 namespace rejoin::mesh {
 namespace {
 
-constexpr float kMostCells = 200.0F;  // a side: for points that spread far, cells are wider than the radius
+constexpr float kMostCellsASide =
+    200.0F;  // a side: for points that spread far, cells are wider than the radius
 
 }  // namespace
 
@@ -18,7 +19,7 @@ Neighbours::Neighbours(std::span<const glm::vec3> points, float radius) : square
   low_ = box.low;
   const glm::vec3 size = box.high - box.low;
   // A little wider than the radius, so that rounding puts no neighbour into the cell after the next.
-  const float cell = std::max(1.001F * radius, std::max({size.x, size.y, size.z}) / kMostCells);
+  const float cell = std::max(1.001F * radius, std::max({size.x, size.y, size.z}) / kMostCellsASide);
   per_unit_ = 1.0F / cell;
   cells_ = glm::ivec3(size * per_unit_) + 1;
   std::vector<std::size_t> place(points.size());

@@ -17,7 +17,7 @@
 namespace rejoin::mesh {
 namespace {
 
-constexpr std::size_t kPlaces = 1000;
+constexpr std::size_t kPorePlaces = 1000;
 constexpr std::size_t kDirections = 32;
 constexpr double kReach = 0.1;       // of the piece's size, in which directions end
 constexpr float kDeep = 0.4F;        // of the directions are free, at most, deep in a pore
@@ -62,7 +62,7 @@ class Outside {
 };
 
 double deep_share(const Mesh& mesh, const Outside& outside) {
-  const Samples samples = sample_surface(mesh, kPlaces);
+  const Samples samples = sample_surface(mesh, kPorePlaces);
   std::vector<char> deep(samples.size());
   parallel_for(samples.size(), 16, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)

@@ -15,13 +15,13 @@ namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr int kRounds = 2;           // the first finds the normals that the second needs
-constexpr int kNormalRounds = 2;     // a single normal of a noisy scan leans by 30 degrees and more
-constexpr float kSameSide = 0.2F;    // cosine to the normals that are averaged,
-constexpr float kSmooth = 0.7F;      // and to those of the points that a quadric is laid through
-constexpr double kSpread = 0.3;      // of the radius: deviation of the weights
-constexpr std::size_t kEnough = 12;  // for the six unknowns of a quadric
-constexpr std::size_t kMost = 256;   // of the neighbours; even scans have 30 to 50
+constexpr int kRounds = 2;                 // the first finds the normals that the second needs
+constexpr int kNormalRounds = 2;           // a single normal of a noisy scan leans by 30 degrees and more
+constexpr float kSameSide = 0.2F;          // cosine to the normals that are averaged,
+constexpr float kSmooth = 0.7F;            // and to those of the points that a quadric is laid through
+constexpr double kSpread = 0.3;            // of the radius: deviation of the weights
+constexpr std::size_t kEnoughPoints = 12;  // for the six unknowns of a quadric
+constexpr std::size_t kMost = 256;         // of the neighbours; even scans have 30 to 50
 
 std::vector<glm::vec3> normals_of(const Mesh& mesh, const detail::Lists& near) {
   std::vector<glm::vec3> normals = area_normals(mesh);
@@ -51,7 +51,7 @@ double height_above(const Mesh& mesh, const std::vector<glm::vec3>& normals,
     right += weight * q.z * row;
     ++count;
   }
-  if (count < kEnough) return 0.0;
+  if (count < kEnoughPoints) return 0.0;
   matrix.diagonal().array() += 1e-6;
   return radius * matrix.ldlt().solve(right)[0];
 }

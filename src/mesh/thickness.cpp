@@ -24,7 +24,7 @@ constexpr float kParallel = 0.95F;      // within 18 degrees
 constexpr double kLeastParallel = 0.2;  // of a thin piece's surface: cracks of a solid lean on each other
 constexpr double kLeastSmooth = 0.15;   // of the surface of a sherd with smooth walls is parallel
 constexpr double kSlab = 0.7;           // of the squares of its normals lie along one direction
-constexpr float kSmooth = 0.5F;         // roughness of such walls, of that of the rest, at most
+constexpr float kSmoothWall = 0.5F;     // roughness of such walls, of that of the rest, at most
 constexpr double kNearLow = 0.6;        // of the thickness
 constexpr double kNearHigh = 1.6;
 constexpr double kEvenLow = 0.8;  // the same of walls that run parallel
@@ -53,8 +53,9 @@ float between(const std::vector<bool>& parallel, const std::vector<float>& rough
   for (std::size_t i = 0; i < roughness.size(); ++i) (parallel[i] ? walls : rest).push_back(roughness[i]);
   const float smooth = median(walls);
   const float rough = median(rest);
-  if (smooth >= kSmooth * rough) return 0.0F;
-  return std::max(std::sqrt(smooth * rough), kSmooth * kSmooth * rough);  // of planes the first is nought
+  if (smooth >= kSmoothWall * rough) return 0.0F;
+  return std::max(std::sqrt(smooth * rough),
+                  kSmoothWall * kSmoothWall * rough);  // of planes the first is nought
 }
 
 /// The shortest chord of the body at right angles to a normal.

@@ -12,7 +12,7 @@ constexpr long kSameDiagonal = 5;
 constexpr std::size_t kShare = 12;
 
 /// values with `reach` samples of the other end before and after.
-std::vector<float> wrapped(const std::vector<float>& values, std::size_t reach) {
+std::vector<float> continued(const std::vector<float>& values, std::size_t reach) {
   std::vector<float> out;
   out.reserve(values.size() + 2 * reach);
   const std::size_t count = values.size();
@@ -23,7 +23,7 @@ std::vector<float> wrapped(const std::vector<float>& values, std::size_t reach) 
 
 /// Sum of |turn| over the window around each sample.
 std::vector<float> window_sums(const std::vector<float>& turn, std::size_t reach) {
-  const std::vector<float> line = wrapped(turn, reach);
+  const std::vector<float> line = continued(turn, reach);
   std::vector<double> sums(line.size() + 1, 0.0);
   for (std::size_t i = 0; i < line.size(); ++i) sums[i + 1] = sums[i] + std::abs(line[i]);
   std::vector<float> out;
@@ -75,8 +75,8 @@ std::vector<Moment> alignment_moments(const PropertyPlot& a, const PropertyPlot&
   std::vector<std::vector<float>> lines_a;
   std::vector<std::vector<float>> lines_b;
   for (std::size_t c = 0; c < (coloured ? 4U : 1U); ++c) {
-    lines_a.push_back(wrapped(a.channels[c], reach));
-    lines_b.push_back(wrapped(b.channels[c], reach));
+    lines_a.push_back(continued(a.channels[c], reach));
+    lines_b.push_back(continued(b.channels[c], reach));
   }
   const std::vector<float> energy_a = window_sums(a.channels[0], reach);
   const std::vector<float> energy_b = window_sums(b.channels[0], reach);

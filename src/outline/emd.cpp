@@ -30,8 +30,8 @@ constexpr double kMostIntrusion = 0.25;
 constexpr double kEvenInformation = 12.0;
 constexpr double kInformationScale = 1.5;
 // Candidates turned and shifted by less than this are one: radians, steps of the coarser scale.
-constexpr double kSameTurn = 0.05;
-constexpr double kSameShift = 6.0;
+constexpr double kEqualTurn = 0.05;
+constexpr double kEqualShift = 6.0;
 
 /// A piece at one scale.
 struct ScaledPiece {
@@ -167,8 +167,8 @@ class EmdMatcher final : public Matcher {
     std::vector<JoinCandidate> kept;
     for (const JoinCandidate& candidate : candidates) {
       const bool known = std::any_of(kept.begin(), kept.end(), [&](const JoinCandidate& other) {
-        return angle_between(candidate.pose, other.pose) < 2.0 * kSameTurn &&
-               glm::distance(candidate.pose(centre), other.pose(centre)) < kSameShift * b.silhouette.step;
+        return angle_between(candidate.pose, other.pose) < 2.0 * kEqualTurn &&
+               glm::distance(candidate.pose(centre), other.pose(centre)) < kEqualShift * b.silhouette.step;
       });
       if (!known) kept.push_back(candidate);
       if (kept.size() == options_.candidates) break;

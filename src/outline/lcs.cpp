@@ -15,9 +15,9 @@ namespace {
 using detail::LcsFit;
 using detail::LcsScale;
 
-constexpr std::size_t kMostSamples = 12000;  // a border; longer ones are sampled more coarsely
-constexpr std::size_t kLeastSamples = 300;   // of a set's mean border
-constexpr double kCoarser = 3.0;             // a scale's step / that of the one before
+constexpr std::size_t kLongest = 12000;     // a border; longer ones are sampled more coarsely
+constexpr std::size_t kLeastSamples = 300;  // of a set's mean border
+constexpr double kCoarser = 3.0;            // a scale's step / that of the one before
 
 double median_spacing(const std::vector<Piece>& pieces) {
   std::vector<double> spacings;
@@ -37,7 +37,7 @@ double step_of(const std::vector<Piece>& pieces, double wanted) {
   }
   const double mean = sum / static_cast<double>(pieces.size());
   const double step = wanted > 0.0 ? wanted : std::min(median_spacing(pieces), mean / kLeastSamples);
-  return std::max(step, longest / kMostSamples);
+  return std::max(step, longest / kLongest);
 }
 
 class LcsMatcher final : public Matcher {

@@ -21,7 +21,7 @@ constexpr std::size_t kReported = 10;
 /// The search begins at coarser scales too, up to that at which a boundary of this share of the mean border is not yet lost:
 /// where the fine scales hold nothing but noise, a long boundary shows at the coarse ones alone.
 constexpr double kLongBoundary = 1.0 / 3.0;
-constexpr int kLeastSamples = 3;
+constexpr int kLeastAtScale = 3;
 /// Area of a piece that may lie in a hole, as a share of the hole's: a scan takes a little off one and adds it to the other.
 constexpr double kHoleSlack = 1.25;
 
@@ -189,7 +189,7 @@ class Multiscale final : public Matcher {
     auto k = static_cast<std::size_t>(scales_) - 1;
     const std::size_t finest = options_.per_pair;
     const int least =
-        std::max(kLeastSamples, static_cast<int>(min_length_ / signals_[a][k].step - 8.0 * options_.alpha));
+        std::max(kLeastAtScale, static_cast<int>(min_length_ / signals_[a][k].step - 8.0 * options_.alpha));
     std::vector<detail::Candidate> candidates =
         detail::initial_candidates(sequences(a, b, k), parameters(k), least, finest << k);
     std::vector<std::vector<PairedPlaces>> rejected;
@@ -224,7 +224,7 @@ class Multiscale final : public Matcher {
   void add_coarse(std::size_t a, std::size_t b, std::size_t scale,
                   std::vector<std::vector<PairedPlaces>>& starts) const {
     for (detail::Candidate& candidate : detail::initial_candidates(
-             sequences(a, b, scale), parameters(scale), kLeastSamples, options_.per_coarse_scale)) {
+             sequences(a, b, scale), parameters(scale), kLeastAtScale, options_.per_coarse_scale)) {
       std::size_t k = scale;
       while (k > 0) {
         detail::Candidate next = detail::refine(sequences(a, b, k - 1), parameters(k - 1),

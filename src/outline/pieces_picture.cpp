@@ -10,7 +10,7 @@
 namespace rejoin::outline {
 namespace {
 
-constexpr int kCell = 260;        // pixels, name included
+constexpr int kTile = 260;        // pixels, name included
 constexpr int kName = 22;         // of these for the name
 constexpr int kGap = 8;           // around what a cell shows
 constexpr double kAround = 0.08;  // of a piece's extent, shown around it
@@ -36,7 +36,7 @@ struct Window {
     low -= around;
     high += around;
     const glm::dvec2 extent = high - low;
-    scale = std::min((kCell - 2.0 * kGap) / extent.x, (kCell - kName - 2.0 * kGap) / extent.y);
+    scale = std::min((kTile - 2.0 * kGap) / extent.x, (kTile - kName - 2.0 * kGap) / extent.y);
   }
 
   /// The place in the window, pixels.
@@ -90,19 +90,19 @@ void write_pieces_picture(const std::filesystem::path& path, const std::vector<P
   const std::size_t columns = std::clamp<std::size_t>(
       static_cast<std::size_t>(std::ceil(std::sqrt(1.5 * static_cast<double>(count)))), 1, kMostColumns);
   const std::size_t rows = (count + columns - 1) / columns;
-  cv::Mat sheet(static_cast<int>(rows) * kCell, static_cast<int>(columns) * kCell, CV_8UC3,
+  cv::Mat sheet(static_cast<int>(rows) * kTile, static_cast<int>(columns) * kTile, CV_8UC3,
                 cv::Scalar(255, 255, 255));
   Source source;
   for (std::size_t k = 0; k < count; ++k) {
     const Piece& piece = pieces[k];
-    const cv::Point corner(static_cast<int>(k % columns) * kCell, static_cast<int>(k / columns) * kCell);
+    const cv::Point corner(static_cast<int>(k % columns) * kTile, static_cast<int>(k / columns) * kTile);
     const Window window(piece);
     cv::Mat part = shown(piece, window, source);
     draw_border(part, piece.outline.points, window);
     for (const auto& hole : piece.outline.holes) draw_border(part, hole, window);
-    part.copyTo(sheet(cv::Rect(corner + cv::Point((kCell - part.cols) / 2, kGap), part.size())));
+    part.copyTo(sheet(cv::Rect(corner + cv::Point((kTile - part.cols) / 2, kGap), part.size())));
     cv::putText(sheet, std::to_string(k) + "  " + detail::short_name(piece.name),
-                corner + cv::Point(kGap, kCell - kName / 2 + 3), cv::FONT_HERSHEY_SIMPLEX, 0.4,
+                corner + cv::Point(kGap, kTile - kName / 2 + 3), cv::FONT_HERSHEY_SIMPLEX, 0.4,
                 cv::Scalar(60, 60, 60), 1, cv::LINE_AA);
   }
   detail::write_png(path, sheet);

@@ -17,7 +17,7 @@ using Polygon = std::vector<glm::dvec2>;
 
 /// A loop with more than this share of the area is no slip of the pen.
 constexpr double kMostLoopArea = 0.02;
-constexpr std::size_t kLeastPoints = 4;
+constexpr std::size_t kLeastCorners = 4;
 /// With more loops, and more than one at every fourth point, the file is no outline.
 constexpr std::size_t kMostLoops = 500;
 constexpr std::size_t kPointsALoop = 4;
@@ -99,9 +99,9 @@ Polygon without_repeats(const Polygon& polygon) {
 }
 
 /// A closed polygon whose loops are cut off.  Edges keep their numbers; those of a loop are taken out.
-class Loops {
+class LoopsCut {
  public:
-  explicit Loops(const Polygon& polygon)
+  explicit LoopsCut(const Polygon& polygon)
       : grid_(polygon),
         begins_(polygon),
         ends_(polygon),
@@ -203,9 +203,9 @@ class Loops {
 /// \throws InputError  one is too large, or there are too many
 Polygon without_loops(const Polygon& polygon, const std::string& subject, std::vector<std::string>& notes) {
   const std::size_t most = std::max(kMostLoops, polygon.size() / kPointsALoop);
-  Loops left(polygon);
+  LoopsCut left(polygon);
   std::size_t loops = 0;
-  while (left.size() >= kLeastPoints) {
+  while (left.size() >= kLeastCorners) {
     const auto crossing = left.next_crossing();
     if (!crossing) break;
     if (left.cut(*crossing) > kMostLoopArea) {
@@ -288,8 +288,8 @@ std::optional<glm::dvec2> meeting(const glm::dvec2& a, const glm::dvec2& b, cons
 }
 
 std::optional<Crossing> find_crossing(const Polygon& polygon) {
-  if (polygon.size() < kLeastPoints) return std::nullopt;
-  return Loops(polygon).next_crossing();
+  if (polygon.size() < kLeastCorners) return std::nullopt;
+  return LoopsCut(polygon).next_crossing();
 }
 
 std::optional<double> open_ends(const Polygon& line) {
@@ -321,8 +321,8 @@ std::optional<std::string> doubt_ends(const Polygon& line) {
 Polygon mend_polygon(Polygon polygon, const std::string& subject, std::vector<std::string>& notes) {
   require_usual_points(polygon, subject);
   polygon = without_repeats(polygon);
-  if (polygon.size() >= kLeastPoints) polygon = without_loops(polygon, subject, notes);
-  if (polygon.size() < kLeastPoints) {
+  if (polygon.size() >= kLeastCorners) polygon = without_loops(polygon, subject, notes);
+  if (polygon.size() < kLeastCorners) {
     throw InputError(subject,
                      fmt::format("an outline of {} points says nothing of where it broke", polygon.size()),
                      "give the border with at least 4 points, better hundreds");

@@ -8,7 +8,7 @@
 namespace rejoin::outline {
 namespace {
 
-constexpr std::size_t kLeastSamples = 8;
+constexpr std::size_t kShortest = 8;
 constexpr std::size_t kFewestPoints = 16;
 
 /// Angle from the edge before each point to the edge after it.
@@ -27,8 +27,7 @@ std::vector<float> turning_of(const std::vector<glm::dvec2>& points) {
 ScaleSignal scale_of(const std::vector<glm::dvec2>& border, double fine, double step) {
   const std::vector<glm::dvec2> smoothed = smooth(border, step / fine);
   const std::vector<double> lengths = arc_lengths(smoothed);
-  const std::size_t count =
-      std::max(kLeastSamples, static_cast<std::size_t>(std::lround(lengths.back() / step)));
+  const std::size_t count = std::max(kShortest, static_cast<std::size_t>(std::lround(lengths.back() / step)));
   ScaleSignal signal;
   signal.step = lengths.back() / static_cast<double>(count);
   signal.points.reserve(count);
@@ -73,7 +72,7 @@ std::vector<double> curvature(const std::vector<glm::dvec2>& points) {
 std::vector<ScaleSignal> scale_space(const std::vector<glm::dvec2>& border, const SignalOptions& options) {
   const double length = perimeter(border);
   const std::size_t fine_count =
-      std::max(4 * kLeastSamples, static_cast<std::size_t>(std::lround(2.0 * length / options.step)));
+      std::max(4 * kShortest, static_cast<std::size_t>(std::lround(2.0 * length / options.step)));
   const std::vector<glm::dvec2> even = resample(border, fine_count);
   const double fine = length / static_cast<double>(fine_count);
   std::vector<ScaleSignal> scales;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kDraws = 24;
 constexpr int kCandidates = 6;
-constexpr double kLinked = 1.9;  // spacings within which samples are neighbours
+constexpr double kBeside = 1.9;  // spacings within which samples are neighbours
 
 /// Mitchell's best candidate: each site is the farthest from the others of a few random points.
 std::vector<glm::dvec3> spread_sites(const mesh::Samples& samples, const glm::dvec3& origin,
@@ -37,7 +37,7 @@ std::vector<glm::dvec3> spread_sites(const mesh::Samples& samples, const glm::dv
 
 std::optional<Cells> choose_cells(const mesh::Samples& samples, const glm::dvec3& origin, std::size_t count,
                                   const Noise& warp, std::uint64_t seed, const Context& context) {
-  const Links links = links_within(samples.points, kLinked * samples.spacing);
+  const Links links = links_within(samples.points, kBeside * samples.spacing);
   std::optional<Cells> best;
   std::size_t least_lost = samples.size();
   std::vector<glm::dvec3> bent;

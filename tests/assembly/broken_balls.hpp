@@ -7,11 +7,10 @@
 
 #include "../mesh/shapes.hpp"
 #include "assembly/assembly.hpp"
+#include "core/angle.hpp"
 #include "shatter/shatter.hpp"
 
 namespace rejoin::assembly::testing {
-
-inline constexpr double kDegree = 0.017453292519943295;
 
 /// The pieces of one or more balls; made once for all tests.
 struct Box {

@@ -9,6 +9,7 @@
 
 #include "../match/planted_block.hpp"
 #include "batch_runs.hpp"
+#include "core/angle.hpp"
 #include "core/random.hpp"
 #include "run_program.hpp"
 
@@ -18,8 +19,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 using Poses = std::vector<std::pair<std::string, Rigid>>;
-
-constexpr double kDegree = 0.017453292519943295;
 
 json rows_of(const Rigid& pose) {
   json rows = json::array();

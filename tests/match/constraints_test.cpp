@@ -1,8 +1,10 @@
 #include "match/constraints.hpp"
+#include "core/angle.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "core/error.hpp"
 #include "core/random.hpp"
@@ -12,7 +14,6 @@
 namespace rejoin::match {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 const glm::dvec3 kAxis(0, 1, 1);
 
 Options with(Constraint constraint, bool directions, bool axes) {
@@ -99,7 +100,7 @@ TEST(Constraints, FreeSpaceHoldsEveryAngleAndATenthOfTheDiameter) {
   ASSERT_EQ(space.variables.size(), kPoseSize);
   for (const PoseIndex v : {kTheta1, kPhi1, kRho1, kTheta2, kPhi2}) {
     EXPECT_TRUE(space.variables[v].wraps);
-    EXPECT_NEAR(space.variables[v].high - space.variables[v].low, 2 * kPi, 1e-12);
+    EXPECT_NEAR(space.variables[v].high - space.variables[v].low, 2 * std::numbers::pi, 1e-12);
   }
   for (const PoseIndex v : {kX1, kY1}) {
     EXPECT_FALSE(space.variables[v].wraps);
@@ -111,7 +112,7 @@ TEST(Constraints, FreeSpaceHoldsEveryAngleAndATenthOfTheDiameter) {
 TEST(Constraints, DirectionsStayOppositeWithinTheTolerance) {
   const glm::dvec3 a(1, 2, 3);
   const glm::dvec3 b(-2, 0.5, 1);
-  const SearchSpace space = direction_space(a, b, 10 * kPi / 180, 100);
+  const SearchSpace space = direction_space(a, b, 10 * kDegree, 100);
   const std::vector<double> middle = {0, 0, 1.3, 4, 5, 0, 0};
   const auto [facing_a, facing_b] = axes_of(space.view(middle), glm::normalize(a), glm::normalize(b));
   EXPECT_NEAR(glm::dot(facing_a, facing_b), -1, 1e-6);
@@ -120,10 +121,10 @@ TEST(Constraints, DirectionsStayOppositeWithinTheTolerance) {
     const auto [u, v] =
         axes_of(space.view(random_point(space, random)), glm::normalize(a), glm::normalize(b));
     // Two tilts of up to 10 degrees about perpendicular axes: 14.2 degrees at most for each.
-    EXPECT_GT(u.z, std::cos(14.2 * kPi / 180));
-    EXPECT_LT(v.z, -std::cos(14.2 * kPi / 180));
+    EXPECT_GT(u.z, std::cos(14.2 * kDegree));
+    EXPECT_LT(v.z, -std::cos(14.2 * kDegree));
   }
-  EXPECT_LT(direction_space(a, b, 0, 100).variables[kTheta1].high, 0.02 * kPi / 180);
+  EXPECT_LT(direction_space(a, b, 0, 100).variables[kTheta1].high, 0.02 * kDegree);
 }
 
 TEST(Constraints, MaterialAxesStayCollinearAtEveryPose) {
@@ -132,7 +133,7 @@ TEST(Constraints, MaterialAxesStayCollinearAtEveryPose) {
   Random random(8);
   for (const bool opposite : {false, true}) {
     const SearchSpace exact = material_space(a, b, 0, 100, opposite);
-    const SearchSpace loose = material_space(a, b, 5 * kPi / 180, 100, opposite);
+    const SearchSpace loose = material_space(a, b, 5 * kDegree, 100, opposite);
     double largest = 0;
     for (int k = 0; k < 300; ++k) {
       const auto [u, v] = axes_of(exact.view(random_point(exact, random)), a, b);
@@ -140,8 +141,8 @@ TEST(Constraints, MaterialAxesStayCollinearAtEveryPose) {
       const auto [p, q] = axes_of(loose.view(random_point(loose, random)), a, b);
       largest = std::max(largest, std::acos(std::min(1.0, std::abs(glm::dot(p, q)))));
     }
-    EXPECT_LT(largest, 7.2 * kPi / 180);  // two jitters of 5 degrees
-    EXPECT_GT(largest, 3.0 * kPi / 180);
+    EXPECT_LT(largest, 7.2 * kDegree);  // two jitters of 5 degrees
+    EXPECT_GT(largest, 3.0 * kDegree);
   }
 }
 
@@ -159,11 +160,11 @@ TEST(Constraints, ShiftsFollowRhoLinearlyBetweenSamplesAndAcrossTheSeam) {
   const auto shift_at = [&](double rho) {
     return space.view(std::vector<double>{0, 0, rho, 1, 2, 0, 0}).shift_a;
   };
-  EXPECT_NEAR(shift_at(kPi / 4).x, 3, 1e-5);
-  EXPECT_NEAR(shift_at(3 * kPi / 4).y, -2, 1e-5);
-  EXPECT_NEAR(shift_at(7 * kPi / 4).x, 7, 1e-5);
-  EXPECT_NEAR(shift_at(2 * kPi).x, 1, 1e-5);
-  EXPECT_NEAR(shift_at(-kPi / 4).x, 7, 1e-5);
+  EXPECT_NEAR(shift_at(std::numbers::pi / 4).x, 3, 1e-5);
+  EXPECT_NEAR(shift_at(3 * std::numbers::pi / 4).y, -2, 1e-5);
+  EXPECT_NEAR(shift_at(7 * std::numbers::pi / 4).x, 7, 1e-5);
+  EXPECT_NEAR(shift_at(2 * std::numbers::pi).x, 1, 1e-5);
+  EXPECT_NEAR(shift_at(-std::numbers::pi / 4).x, 7, 1e-5);
 }
 
 TEST(Constraints, SilhouettesAreCentredToWithinAPixelOfTheTruth) {
@@ -183,9 +184,9 @@ TEST(Constraints, SilhouettesAreCentredToWithinAPixelOfTheTruth) {
                             pair.b.origin + glm::dvec3(view.centre_b)};
   double nearest = 1e9;
   for (int k = 0; k < samples; ++k) {
-    const auto got = space.view(std::vector<double>{0, 0, 2 * kPi * k / samples, 0, 0, 0, 0});
+    const auto got = space.view(std::vector<double>{0, 0, 2 * std::numbers::pi * k / samples, 0, 0, 0, 0});
     const Rigid pose = pose_of(got, 0, centres);
-    if (angle_between(pose, pair.truth) > 1.5 * kPi / 180) continue;
+    if (angle_between(pose, pair.truth) > 1.5 * kDegree) continue;
     const auto wanted = facing_view(pair.truth, pair.direction_a, centres);
     // Both shifts in A's own turned frame: compare where B's centre goes in the plane of the cut.
     const glm::dvec3 difference = pose(centres.b) - pair.truth(centres.b);
@@ -229,7 +230,7 @@ TEST(Energy, MaterialBiasIsEquationEleven) {
   const auto fit = score(0.01F, 1000, 1000, 1000);
   EXPECT_NEAR(energy(fit, {}, rule), 0.6 * 0.01, 1e-9);  // opposite axes are the same line
   zbuffer::ViewPair tilted;
-  tilted.rotation_a = glm::mat3(axis_rotation({1, 0, 0}, kPi / 3));
+  tilted.rotation_a = glm::mat3(axis_rotation({1, 0, 0}, std::numbers::pi / 3));
   EXPECT_NEAR(energy(fit, tilted, rule), 0.6 * 0.01 + 0.4 * 0.5, 1e-6);
   rule.material_axes = {{1, 1, 0}, {-1, 1, 0}};  // B's x axis is mirrored when it faces A
   rule.material_axes->first /= std::sqrt(2.0);

@@ -1,4 +1,5 @@
 #include "match/esa_search.hpp"
+#include "core/angle.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +12,6 @@
 
 namespace rejoin::match {
 namespace {
-
-constexpr double kDegrees = 3.14159265358979323846 / 180;
 
 Fragment bare_fragment(const mesh::Mesh& mesh, const char* name) {
   Fragment fragment;
@@ -49,7 +48,7 @@ Options with_directions(const Case& c) {
 
 bool right(const Case& c, const Rigid& pose) {
   const glm::dvec3 centre = c.b.coarse.origin;
-  return angle_between(pose, c.pair.truth) < 5 * kDegrees &&
+  return angle_between(pose, c.pair.truth) < 5 * kDegree &&
          glm::length(pose(centre) - c.pair.truth(centre)) <
              0.02 * 100;  // 2 % of the block's diagonal, 108 mm
 }
@@ -148,7 +147,7 @@ TEST(EsaSearch, MaterialAxisRestrictsThePosesToCollinearAxes) {
   options.material_b = c.pair.to_b.rotation * vein;
   for (const EsaHypothesis& h : esa_search(c.a, c.b, options, {}, Context())) {
     const double cosine = std::abs(glm::dot(h.pose.rotation * *options.material_b, *options.material_a));
-    EXPECT_GT(cosine, std::cos(7.2 * kDegrees));  // jitter of 5 degrees about two axes
+    EXPECT_GT(cosine, std::cos(7.2 * kDegree));  // jitter of 5 degrees about two axes
   }
 }
 

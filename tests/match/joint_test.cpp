@@ -1,3 +1,4 @@
+#include "core/angle.hpp"
 #include "match/align.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +13,6 @@ namespace rejoin::match {
 namespace {
 
 using testing::flat_half;
-using testing::kDegree;
 using testing::make_pair;
 using testing::Pair;
 using testing::strength_of_shape;

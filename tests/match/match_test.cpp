@@ -1,4 +1,5 @@
 #include "match/match.hpp"
+#include "core/angle.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +18,6 @@
 namespace rejoin::match {
 namespace {
 
-using testing::kDegree;
 using testing::make_pair;
 using testing::Pair;
 

@@ -1,4 +1,5 @@
 #include "match/near.hpp"
+#include "core/angle.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +11,6 @@
 namespace rejoin::match {
 namespace {
 
-using testing::kDegree;
 using testing::make_pair;
 using testing::Pair;
 

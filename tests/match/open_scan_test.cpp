@@ -11,19 +11,19 @@
 namespace rejoin::match {
 namespace {
 
-constexpr glm::dvec3 kHalf{30, 20, 2};
+constexpr glm::dvec3 kHalfSherd{30, 20, 2};
 
-double broken_at(double y) {
+double crack_at(double y) {
   return 1.5 * std::sin(0.21 * y) + 0.8 * std::sin(0.55 * y + 1.0) + 0.4 * std::sin(1.3 * y + 0.4);
 }
 
 /// A part of a plate 4 thick that is broken across.
 mesh::Mesh part(bool left) {
-  const shatter::Grid grid{.size = 2.4 * kHalf.x, .spacing = 0.4};
+  const shatter::Grid grid{.size = 2.4 * kHalfSherd.x, .spacing = 0.4};
   return shatter::surface_nets(
       [left](const glm::dvec3& p) {
-        const glm::dvec3 off = glm::abs(p) - kHalf;
-        const double side = p.x - broken_at(p.y);
+        const glm::dvec3 off = glm::abs(p) - kHalfSherd;
+        const double side = p.x - crack_at(p.y);
         return std::max({off.x, off.y, off.z, left ? side : -side});
       },
       grid, Context{});

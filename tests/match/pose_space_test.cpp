@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/error.hpp"
 #include "planted_block.hpp"
@@ -11,8 +12,6 @@
 
 namespace rejoin::match {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 void expect_near(const glm::dvec3& got, const glm::dvec3& wanted, double tolerance) {
   EXPECT_LE(glm::length(got - wanted), tolerance)
@@ -31,7 +30,7 @@ PoseVector pose_with(std::initializer_list<std::pair<PoseIndex, double>> values)
 }
 
 TEST(PoseSpace, GeneralOrderTurnsAboutYThenXThenZ) {
-  const double q = kPi / 2;
+  const double q = std::numbers::pi / 2;
   const auto pose = pose_with({{kTheta1, q}, {kPhi1, q}, {kRho1, q}, {kX1, 3}, {kY1, -4}});
   const auto view = view_of(pose, {}, RotationOrder::ZLast);
   // x -> (Ry) -z -> (Rx) y -> (Rz) -x, and so on round.
@@ -42,7 +41,7 @@ TEST(PoseSpace, GeneralOrderTurnsAboutYThenXThenZ) {
 }
 
 TEST(PoseSpace, MaterialOrderTurnsAboutZFirst) {
-  const double q = kPi / 2;
+  const double q = std::numbers::pi / 2;
   const auto pose = pose_with({{kTheta1, q}, {kPhi1, q}, {kRho1, q}});
   const auto view = view_of(pose, {}, RotationOrder::ZFirst);
   // x -> (Rz) y -> (Ry) y -> (Rx) z
@@ -52,7 +51,7 @@ TEST(PoseSpace, MaterialOrderTurnsAboutZFirst) {
 }
 
 TEST(PoseSpace, SecondFragmentTurnsAboutYThenX) {
-  const double q = kPi / 2;
+  const double q = std::numbers::pi / 2;
   const auto view = view_of(pose_with({{kTheta2, q}, {kPhi2, q}}), {}, RotationOrder::ZLast);
   expect_near(turned(view.rotation_b, {1, 0, 0}), {0, 1, 0}, 1e-6);
   expect_near(turned(view.rotation_b, {0, 1, 0}), {0, 0, 1}, 1e-6);

@@ -5,12 +5,11 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/angle.hpp"
 #include "match/align.hpp"
 #include "planted_block.hpp"
 
 namespace rejoin::match::testing {
-
-inline constexpr double kDegree = 0.017453292519943295;
 
 struct Pair {
   PlantedPair planted;

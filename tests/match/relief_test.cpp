@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "match/correlate.hpp"
 
 namespace rejoin::match {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// Rectangles of a plane, z = 0, mm.
 FacetPatch flat_patch(const std::vector<glm::vec4>& rectangles) {
@@ -151,7 +150,7 @@ TEST(Relief, FlatBreaksAreLaidOnOneAnotherByTheirOutlines) {
   // Pixel (0, 0) of both maps is the corner of the L.
   EXPECT_EQ(best.shift_u, 0);
   EXPECT_EQ(best.shift_v, 0);
-  for (const double turn : {0.5 * kPi, kPi, 1.5 * kPi}) {
+  for (const double turn : {0.5 * std::numbers::pi, std::numbers::pi, 1.5 * std::numbers::pi}) {
     for (const Agreement& other : correlator.peaks(facing_relief_of(b, 0.5, turn))) {
       EXPECT_LT(other.score, 0.8F * best.score) << turn;
     }

@@ -1,13 +1,12 @@
 #include <gtest/gtest.h>
 
 #include "../mesh/sponge.hpp"
+#include "core/angle.hpp"
 #include "match/match.hpp"
 #include "prepared_pair.hpp"
 
 namespace rejoin::match {
 namespace {
-
-using testing::kDegree;
 
 /// Heights of a break across the slab, along x.
 double broken_at(const glm::dvec3& p) {

@@ -1,15 +1,15 @@
 #include "match/strip.hpp"
+#include "core/angle.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace rejoin::match {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kDegree = kPi / 180.0;
 constexpr double kRadius = 50.0;
 constexpr double kWide = 6.0;
 constexpr double kStep = 2.0 * kDegree;
@@ -48,8 +48,9 @@ FacetPatch arc(double from_deg, double to_deg, bool facing) {
 
 /// The least distance of a turn from those that are looked at, radians.
 double missed_by(const std::vector<double>& turns, double turn) {
-  double least = kPi;
-  for (const double t : turns) least = std::min(least, std::abs(std::remainder(t - turn, 2.0 * kPi)));
+  double least = std::numbers::pi;
+  for (const double t : turns)
+    least = std::min(least, std::abs(std::remainder(t - turn, 2.0 * std::numbers::pi)));
   return least;
 }
 
@@ -81,7 +82,7 @@ TEST(Strip, AShortSherdMayJoinAnyPartOfALongBentBreak) {
 TEST(Strip, BreaksThatAreBentTheOtherWayAreNotLaidAlongEachOther) {
   const auto turns = turns_along(arc(-40, 40, false), arc(-40, 40, true), kStep);
   EXPECT_LE(missed_by(turns, 0.0), kStep);
-  EXPECT_GT(missed_by(turns, kPi), 60 * kDegree);
+  EXPECT_GT(missed_by(turns, std::numbers::pi), 60 * kDegree);
 }
 
 TEST(Strip, StraightBreaksAreLaidAlongEachOtherEitherWayOnly) {
@@ -91,8 +92,8 @@ TEST(Strip, StraightBreaksAreLaidAlongEachOtherEitherWayOnly) {
   }
   const auto turns = turns_along(strip_of(points), strip_of(points), kStep);
   EXPECT_LE(missed_by(turns, 0.0), kStep);
-  EXPECT_LE(missed_by(turns, kPi), kStep);
-  EXPECT_GT(missed_by(turns, 0.5 * kPi), 60 * kDegree);
+  EXPECT_LE(missed_by(turns, std::numbers::pi), kStep);
+  EXPECT_GT(missed_by(turns, 0.5 * std::numbers::pi), 60 * kDegree);
   EXPECT_TRUE(std::is_sorted(turns.begin(), turns.end()));
 }
 
@@ -103,7 +104,7 @@ TEST(Strip, ABreakAllAroundATubeIsAsWideAsItsWall) {
       points.emplace_back(radius * std::cos(degree * kDegree), radius * std::sin(degree * kDegree), 0.0);
   }
   FacetPatch ring = strip_of(points);
-  ring.area = kPi * (14.0 * 14.0 - 10.0 * 10.0);
+  ring.area = std::numbers::pi * (14.0 * 14.0 - 10.0 * 10.0);
   measure_across(ring);
   EXPECT_NEAR(ring.across, 4.0, 0.6);
 }

@@ -1,4 +1,5 @@
 #include "match/sweep.hpp"
+#include "core/angle.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +13,6 @@ namespace rejoin::match {
 namespace {
 
 using testing::half_block;
-using testing::kDegree;
 using testing::kHalfZ;
 using testing::make_pair;
 

@@ -4,18 +4,13 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "mesh/load.hpp"
-#include "mesh/save.hpp"
 #include "shapes.hpp"
+#include "through_ply.hpp"
 
 namespace rejoin::mesh {
 namespace {
 
-Loaded through_ply(const Mesh& mesh) {
-  const test::TemporaryFolder folder;
-  save(folder / "a.ply", mesh);
-  return load(folder / "a.ply");
-}
+using test::through_ply;
 
 /// Adds `faces` small triangles side by side, each of the given size, from a place on.
 void add_strip(Mesh& mesh, const glm::vec3& at, float size, int faces) {

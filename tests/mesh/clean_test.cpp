@@ -8,13 +8,14 @@
 #include "core/error.hpp"
 #include "core/random.hpp"
 #include "mesh/load.hpp"
-#include "mesh/save.hpp"
 #include "shapes.hpp"
+#include "through_ply.hpp"
 
 namespace rejoin::mesh {
 namespace {
 
 using test::TemporaryFolder;
+using test::through_ply;
 
 const std::string kPlyHeader = "ply\nformat ascii 1.0\n";
 
@@ -30,12 +31,6 @@ std::string faces(std::size_t count) {
 Loaded load_text(const std::string& name, const std::string& text) {
   const TemporaryFolder folder;
   return load(folder.write(name, text));
-}
-
-Loaded through_ply(const Mesh& mesh, Content content = Content::OnePiece) {
-  const TemporaryFolder folder;
-  save(folder / "a.ply", mesh);
-  return load(folder / "a.ply", Weld::Places, content);
 }
 
 TEST(Clean, WeldsExactlyEqualVerticesOnlyWhateverTheScale) {

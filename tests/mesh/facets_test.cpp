@@ -1,9 +1,11 @@
 #include "mesh/facets.hpp"
+#include "core/angle.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "core/random.hpp"
@@ -12,8 +14,6 @@
 
 namespace rejoin::mesh {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 using test::box;
 using test::flat;
@@ -53,12 +53,12 @@ TEST(Facets, BoxHasSixSidesWithTheirAreasAndNormals) {
     // A facet gives up at most one row of samples at its border, and takes as much from its neighbours.
     EXPECT_NEAR(s.facets[k].area, areas[k], 0.12 * areas[k]);
     const glm::dvec3 n = glm::abs(s.facets[k].normal);
-    EXPECT_GT(std::max({n.x, n.y, n.z}), std::cos(2.0 * kPi / 180));
+    EXPECT_GT(std::max({n.x, n.y, n.z}), std::cos(2.0 * kDegree));
   }
 }
 
 TEST(Facets, BreaksThatMeetAtABluntEdgeAreTwo) {
-  const double lean = 18.75 * kPi / 180.0;  // to both sides of the ridge: the breaks meet at 37.5 degrees
+  const double lean = 18.75 * kDegree;  // to both sides of the ridge: the breaks meet at 37.5 degrees
   const Mesh roof = box({60, 60, 30}, 30, [&](float x, float) {
     return (30.0F - std::abs(x - 30.0F)) * static_cast<float>(std::tan(lean));
   });
@@ -67,7 +67,7 @@ TEST(Facets, BreaksThatMeetAtABluntEdgeAreTwo) {
     if (facet.normal.z < 0.5) continue;
     ++up;
     EXPECT_NEAR(facet.area, 60 * 30 / std::cos(lean), 0.2 * 60 * 30);  // the edge goes to one of them
-    EXPECT_NEAR(std::abs(facet.normal.x), std::sin(lean), std::sin(3.0 * kPi / 180));
+    EXPECT_NEAR(std::abs(facet.normal.x), std::sin(lean), std::sin(3.0 * kDegree));
   }
   EXPECT_EQ(up, 2);
 }
@@ -83,7 +83,7 @@ std::vector<const Facet*> looking_up(const Cut& cut) {
 
 /// A box 60 wide and deep whose top is a part of a cylinder that leans by up to `lean_deg` to both sides.
 Mesh barrel(double lean_deg) {
-  const double radius = 30.0 / std::sin(lean_deg * kPi / 180.0);
+  const double radius = 30.0 / std::sin(lean_deg * kDegree);
   return box({60, 60, 30}, 30, [&](float x, float) {
     const double aside = static_cast<double>(x) - 30.0;
     return static_cast<float>(std::sqrt(radius * radius - aside * aside) -
@@ -92,7 +92,7 @@ Mesh barrel(double lean_deg) {
 }
 
 TEST(Creases, SidesThatMeetAtABluntRidgeAreTwoThatTheConeTakesForOne) {
-  const double lean = 14.0 * kPi / 180.0;  // to both sides of the ridge: a bend of 28 degrees
+  const double lean = 14.0 * kDegree;  // to both sides of the ridge: a bend of 28 degrees
   const Mesh roof = box({60, 60, 30}, 30, [&](float x, float) {
     return (30.0F - std::abs(x - 30.0F)) * static_cast<float>(std::tan(lean));
   });
@@ -102,7 +102,7 @@ TEST(Creases, SidesThatMeetAtABluntRidgeAreTwoThatTheConeTakesForOne) {
   ASSERT_EQ(sides.size(), 2U);
   for (const Facet* side : sides) {
     EXPECT_NEAR(side->area, 60 * 30 / std::cos(lean), 0.2 * 60 * 30);  // the edge goes to one of them
-    EXPECT_NEAR(std::abs(side->normal.x), std::sin(lean), std::sin(3.0 * kPi / 180));
+    EXPECT_NEAR(std::abs(side->normal.x), std::sin(lean), std::sin(3.0 * kDegree));
   }
 }
 
@@ -167,7 +167,7 @@ TEST(Facets, ShellsFractureSurfaceIsItsFourNarrowSides) {
     area += facet.area;
   }
   // Two straight ends (5 x 60) and two quarter rings (pi/4 (50^2 - 45^2)).
-  const double truth = 2 * 300 + 2 * kPi / 4 * (2500 - 2025);
+  const double truth = 2 * 300 + 2 * std::numbers::pi / 4 * (2500 - 2025);
   EXPECT_EQ(fracture, 4);
   EXPECT_NEAR(area, truth,
               0.25 * truth);  // a row of samples at either edge of a 5 mm strip may go either way
@@ -188,7 +188,7 @@ TEST(Facets, CracksOfALargeThinPlateAreFacets) {
     const glm::dvec3 normal = glm::normalize(glm::dvec3(up, -1.0, 0.0));
     const glm::dvec3 middle(25.0 + 50.0 * leg, 15.0, 2.0);
     const auto its = std::ranges::count_if(s.facets, [&](const Facet& facet) {
-      return facet.fracture && glm::dot(facet.normal, normal) > std::cos(5.0 * kPi / 180) &&
+      return facet.fracture && glm::dot(facet.normal, normal) > std::cos(5.0 * kDegree) &&
              glm::distance(facet.centre, middle) < 5.0;
     });
     EXPECT_EQ(its, 1) << "leg " << leg;

@@ -13,9 +13,9 @@ namespace {
 
 using test::random_point;
 
-constexpr float kCell = 0.05F;
+constexpr float kTableCell = 0.05F;
 constexpr float kReach = 0.2F;
-const float kDiagonal = std::sqrt(3.0F) * kCell;
+const float kDiagonal = std::sqrt(3.0F) * kTableCell;
 
 /// On a ball, about a cell apart.
 std::vector<glm::vec3> ball() {
@@ -28,7 +28,7 @@ std::vector<glm::vec3> ball() {
 TEST(NearTable, FindsWhatIsInReachAtNearlyTheLeastDistance) {
   const auto points = ball();
   const PointIndex index(points);
-  const NearTable table(points, kCell, kReach);
+  const NearTable table(points, kTableCell, kReach);
   Random random(5);
   double beyond = 0;
   int hits = 0;
@@ -48,12 +48,12 @@ TEST(NearTable, FindsWhatIsInReachAtNearlyTheLeastDistance) {
     ++hits;
   }
   EXPECT_GT(hits, 500);
-  EXPECT_LT(beyond / hits, 0.15 * static_cast<double>(kCell));
+  EXPECT_LT(beyond / hits, 0.15 * static_cast<double>(kTableCell));
 }
 
 TEST(NearTable, FindsNothingBeyondTheRadius) {
   const auto points = ball();
-  const NearTable table(points, kCell, kReach);
+  const NearTable table(points, kTableCell, kReach);
   const glm::vec3 inside = 0.9F * points.front();
   ASSERT_TRUE(table.nearest_within(inside, kReach));
   EXPECT_FALSE(table.nearest_within(inside, 0.05F));
@@ -61,7 +61,7 @@ TEST(NearTable, FindsNothingBeyondTheRadius) {
 }
 
 TEST(NearTable, FarPointsAndNoNumbersFindNothing) {
-  const NearTable table(ball(), kCell, kReach);
+  const NearTable table(ball(), kTableCell, kReach);
   const float none = std::nanf("");
   for (const glm::vec3& far :
        {glm::vec3(1e30F, 0.0F, 0.0F), glm::vec3(0.0F, -1e30F, 0.0F), glm::vec3(none)}) {
@@ -72,14 +72,14 @@ TEST(NearTable, FarPointsAndNoNumbersFindNothing) {
 TEST(NearTable, HoldsPointsThatSpreadFar) {
   auto points = ball();
   points.emplace_back(0.0F, 5000.0F, 0.0F);
-  const NearTable table(points, kCell, kReach);
+  const NearTable table(points, kTableCell, kReach);
   for (std::size_t k = 0; k < points.size(); k += 100) EXPECT_TRUE(table.nearest_within(points[k], 100.0F));
   EXPECT_EQ(table.nearest_within(points.back(), 1.0F)->first, points.size() - 1);
 }
 
 TEST(NearTable, WithoutPointsNothingIsNear) {
   EXPECT_FALSE(NearTable().nearest_within(glm::vec3(0.0F), 1.0F));
-  EXPECT_FALSE(NearTable({}, kCell, kReach).nearest_within(glm::vec3(0.0F), 1.0F));
+  EXPECT_FALSE(NearTable({}, kTableCell, kReach).nearest_within(glm::vec3(0.0F), 1.0F));
 }
 
 }  // namespace

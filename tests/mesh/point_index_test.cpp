@@ -17,7 +17,7 @@ namespace {
 
 using test::random_point;
 
-constexpr float kThin = 0.1F;
+constexpr float kThinSlab = 0.1F;
 
 /// By looking at every point.
 std::optional<float> least_distance(const std::vector<glm::vec3>& points, const glm::vec3& to, float radius) {
@@ -32,12 +32,12 @@ std::optional<float> least_distance(const std::vector<glm::vec3>& points, const 
 TEST(PointIndex, NearestWithinIsThatOfAllPointsOrNone) {
   Random random(7);
   std::vector<glm::vec3> points(3000);
-  for (glm::vec3& point : points) point = random_point(random, 1.0F, kThin);
+  for (glm::vec3& point : points) point = random_point(random, 1.0F, kThinSlab);
   const PointIndex index(points);
   int hits = 0;
   constexpr int kAsked = 2000;
   for (int k = 0; k < kAsked; ++k) {
-    const glm::vec3 asked = random_point(random, 1.5F, kThin);
+    const glm::vec3 asked = random_point(random, 1.5F, kThinSlab);
     const auto radius = static_cast<float>(0.1 * random.uniform());
     const auto least = least_distance(points, asked, radius);
     const auto found = index.nearest_within(asked, radius);
@@ -54,14 +54,14 @@ TEST(PointIndex, NearestWithinIsThatOfAllPointsOrNone) {
 TEST(PointIndex, WhatIsKnownOfTheLastLookChangesNoAnswer) {
   Random random(9);
   std::vector<glm::vec3> points(3000);
-  for (glm::vec3& point : points) point = random_point(random, 1.0F, kThin);
+  for (glm::vec3& point : points) point = random_point(random, 1.0F, kThinSlab);
   points.insert(points.end(), points.begin(),
                 points.begin() + 300);  // of two in one place either may be nearest
   const PointIndex index(points);
   int known_hits = 0;
   int known_misses = 0;
   for (int walk = 0; walk < 300; ++walk) {
-    glm::vec3 asked = random_point(random, 1.5F, kThin);
+    glm::vec3 asked = random_point(random, 1.5F, kThinSlab);
     PointIndex::Known known;
     for (int k = 0; k < 30; ++k) {
       const auto radius = static_cast<float>(0.02 + 0.08 * random.uniform());

@@ -15,7 +15,7 @@
 namespace rejoin::mesh {
 namespace {
 
-constexpr float kRadius = 50;
+constexpr float kBallRadius = 50;
 
 /// As a scanner sees it that puts every point off by a deviation along every axis.
 Mesh scanned(Mesh mesh, double deviation) {
@@ -49,12 +49,12 @@ bool is_inside(const glm::vec3& p, float side) {
 }
 
 TEST(Smooth, LeavesTheShareOfTheNoiseThatIsTold) {
-  const Mesh sphere = test::icosphere(kRadius, 5);
+  const Mesh sphere = test::icosphere(kBallRadius, 5);
   for (const double share : {0.1, 0.2, 0.3}) {
     const Mesh scan = scanned(sphere, share * resolution(sphere));
     double sum = 0.0;
     for (const glm::vec3& v : smoothed(scan).vertices)
-      sum += std::pow(static_cast<double>(glm::length(v) - kRadius), 2.0);
+      sum += std::pow(static_cast<double>(glm::length(v) - kBallRadius), 2.0);
     const double left = std::sqrt(sum / static_cast<double>(scan.vertices.size()));
     EXPECT_NEAR(left / noise(scan), kNoiseLeft, 0.05) << share;
   }

@@ -1,4 +1,5 @@
 #include "mesh/detail/triangulate.hpp"
+#include "core/angle.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +10,6 @@
 
 namespace rejoin::mesh::detail {
 namespace {
-
-constexpr double kTurn = 6.283185307179586;
 
 /// A polygon that its middle sees all of, with corners at random distances, in a plane of its own.
 Soup star(std::uint32_t corners, std::uint64_t seed) {

@@ -22,7 +22,7 @@ std::vector<glm::dvec2> samples(const Outline& outline) {
   return resample(outline.points, static_cast<std::size_t>(std::lround(perimeter(outline.points))));
 }
 
-std::uint32_t nearest(const std::vector<glm::dvec2>& points, const glm::dvec2& p) {
+std::uint32_t nearest_to(const std::vector<glm::dvec2>& points, const glm::dvec2& p) {
   std::uint32_t best = 0;
   for (std::uint32_t i = 0; i < points.size(); ++i)
     if (glm::distance(points[i], p) < glm::distance(points[best], p)) best = i;
@@ -32,7 +32,7 @@ std::uint32_t nearest(const std::vector<glm::dvec2>& points, const glm::dvec2& p
 TEST(Seam, OfTwoRectanglesIsTheirCommonSide) {
   const std::vector<glm::dvec2> a = samples(rectangle(0, 0, 100, 60));
   const std::vector<glm::dvec2> b = samples(rectangle(100, 0, 180, 60));
-  const Seam seam = find_seam(a, b, {}, {nearest(a, {100, 30}), nearest(b, {100, 30})}, {0.5, 3});
+  const Seam seam = find_seam(a, b, {}, {nearest_to(a, {100, 30}), nearest_to(b, {100, 30})}, {0.5, 3});
   EXPECT_NEAR(seam.length, 60.0, 1.0);
   EXPECT_NEAR(seam.gap_area, 0.0, 1e-9);
   EXPECT_NEAR(seam.overlap_area, 0.0, 1e-9);
@@ -43,7 +43,7 @@ TEST(Seam, GapAndOverlapAreStripsAlongIt) {
   const std::vector<glm::dvec2> b = samples(rectangle(100, 0, 180, 60));
   for (const double apart : {0.4, -0.4}) {
     const Planar pose{0.0, {apart, 0.0}, false};
-    const Seam seam = find_seam(a, b, pose, {nearest(a, {100, 30}), nearest(b, {100, 30})}, {1.0, 3});
+    const Seam seam = find_seam(a, b, pose, {nearest_to(a, {100, 30}), nearest_to(b, {100, 30})}, {1.0, 3});
     EXPECT_NEAR(apart > 0 ? seam.gap_area : seam.overlap_area, 0.4 * 60.0,
                 1.5);  // the ends turn away from the side
     EXPECT_NEAR(apart > 0 ? seam.overlap_area : seam.gap_area, 0.0, 1.5);
@@ -55,7 +55,7 @@ TEST(Seam, OfAPieceUpsideDownRunsTheSameWayOnBoth) {
   const std::vector<glm::dvec2> a = samples(rectangle(0, 0, 100, 60));
   const std::vector<glm::dvec2> b = samples(rectangle(100, -60, 180, 0));
   const Planar pose{0.0, {0.0, 0.0}, true};
-  const Seam seam = find_seam(a, b, pose, {nearest(a, {100, 30}), nearest(b, {100, -30})}, {0.5, 3});
+  const Seam seam = find_seam(a, b, pose, {nearest_to(a, {100, 30}), nearest_to(b, {100, -30})}, {0.5, 3});
   EXPECT_NEAR(seam.length, 60.0, 1.0);
 }
 

@@ -12,7 +12,7 @@ namespace rejoin::store {
 namespace {
 namespace fs = std::filesystem;
 
-const Parameters kParameters{"0.1.0", "{}", 3};
+const Parameters kShardParameters{"0.1.0", "{}", 3};
 
 class Merge : public ::testing::Test {
  protected:
@@ -25,7 +25,7 @@ class Merge : public ::testing::Test {
 
   /// A shard that knows these fragments and has done the pair of the first two, with two candidates.
   fs::path shard(const std::string& name, const std::vector<std::string>& fragments, double score,
-                 const Parameters& parameters = kParameters, const std::string& hash = "1",
+                 const Parameters& parameters = kShardParameters, const std::string& hash = "1",
                  const std::string& pose = "") const {
     fs::create_directories(folder_ / name);
     store::Run run = store::Run::write(folder_ / name);
@@ -78,7 +78,7 @@ TEST_F(Merge, WholeHasEveryPairUnderItsNames) {
   EXPECT_EQ(merged.fragments, 4U);
   EXPECT_EQ(merged.pairs, 2U);
   const store::Run whole = store::Run::open(output());
-  EXPECT_EQ(whole.parameters(), kParameters);
+  EXPECT_EQ(whole.parameters(), kShardParameters);
   EXPECT_EQ(whole.shard(), "");
   const std::vector<Pair> pairs = whole.pairs();
   ASSERT_EQ(pairs.size(), 2U);
@@ -161,7 +161,7 @@ TEST_F(Merge, ReaderGoesOnReadingTheOldWholeAndTheNewOneStays) {
   {
     // Writes go to the journal, which stays as long as there is a reader.
     const store::Run reader = store::Run::open(output());
-    store::Run::write(output()).begin(kParameters, reader.fragments());
+    store::Run::write(output()).begin(kShardParameters, reader.fragments());
     merge({x, shard("y", {"c", "d"}, 0.5)}, output());
     EXPECT_EQ(reader.pairs().size(), 1U);
     EXPECT_EQ(store::Run::open(output()).pairs().size(), 2U);
@@ -189,7 +189,7 @@ TEST_F(Merge, CopyThatCameLaterTakesNoPairs) {
     std::vector<Fragment> list = with_copy.fragments();
     list.push_back(list[1]);
     list.back().name = "b";
-    with_copy.begin(kParameters, list, shard);
+    with_copy.begin(kShardParameters, list, shard);
   };
   add_copy(output(), "");
   const Merged itself = merge({output()}, output());
@@ -223,12 +223,12 @@ TEST_F(Merge, SameRunTwiceIsRefused) {
 }
 
 TEST_F(Merge, OtherParametersOrContentsAreRefusedAndNothingIsWritten) {
-  Parameters other = kParameters;
+  Parameters other = kShardParameters;
   other.seed = 4;
   const fs::path x = shard("x", {"a", "b"}, 0.5);
   EXPECT_THROW(merge({x, shard("y", {"a", "c"}, 0.5, other)}, output()), StoreError);
-  EXPECT_THROW(merge({x, shard("z", {"a", "c"}, 0.5, kParameters, "2")}, output()), StoreError);
-  EXPECT_THROW(merge({x, shard("w", {"a", "c"}, 0.5, kParameters, "1", "laid")}, output()), StoreError);
+  EXPECT_THROW(merge({x, shard("z", {"a", "c"}, 0.5, kShardParameters, "2")}, output()), StoreError);
+  EXPECT_THROW(merge({x, shard("w", {"a", "c"}, 0.5, kShardParameters, "1", "laid")}, output()), StoreError);
   EXPECT_THROW(merge({x, folder_ / "nowhere"}, output()), StoreError);
   EXPECT_FALSE(fs::exists(output()));
 }

@@ -14,7 +14,7 @@
 namespace rejoin::zbuffer::gl {
 namespace {
 
-constexpr int kResolution = 48;
+constexpr int kPathResolution = 48;
 
 class GlPaths : public testing::TestWithParam<Backend> {
  protected:
@@ -56,7 +56,7 @@ void expect_same_pixels(const std::vector<PairScore>& a, const std::vector<PairS
 TEST_P(GlPaths, ComputeDrawsThePixelsOfTheReference) {
   const mesh::Mesh a = test::bumpy_sphere(3, 1);
   const mesh::Mesh b = test::bumpy_sphere(2, 2);
-  const ViewOptions options{.resolution = kResolution, .view_side = 2.9, .centre_a = {0.1F, 0, -0.2F}};
+  const ViewOptions options{.resolution = kPathResolution, .view_side = 2.9, .centre_a = {0.1F, 0, -0.2F}};
   const auto poses = test::random_poses(8, 31);
   const auto truth = score(*make_scorer(Backend::Reference, a, b, options), poses);
   expect_same_pixels(score(*scorer(Path::Compute, a, b, options), poses), truth);
@@ -106,7 +106,7 @@ TEST_P(GlPaths, OpenClosedAndInsideOutPartsAreDrawnAsInTheReference) {
   const mesh::Mesh a = test::together(test::together(test::moved(patch, {0, 0.3F, 1.1F}), ball),
                                       test::inside_out(test::moved(ball, {0.9F, 0, 0})));
   const mesh::Mesh b = test::bumpy_sphere(2, 5);
-  const ViewOptions options{.resolution = kResolution, .view_side = 4.0};
+  const ViewOptions options{.resolution = kPathResolution, .view_side = 4.0};
   const auto poses = test::random_poses(12, 35);
   const auto truth = score(*make_scorer(Backend::Reference, a, b, options), poses);
   expect_same_pixels(score(*scorer(Path::Compute, a, b, options), poses), truth);
@@ -152,7 +152,7 @@ TEST_P(GlPaths, EveryBatchSizeGivesTheSameBytes) {
   const mesh::Mesh b = test::bumpy_sphere(2, 5);
   const auto poses = test::random_poses(300, 36);
   for (const Path path : {Path::Compute, Path::Pipeline}) {
-    const auto s = scorer(path, a, b, {.resolution = kResolution});
+    const auto s = scorer(path, a, b, {.resolution = kPathResolution});
     const auto whole = score(*s, poses);
     expect_equal_bytes(score(*s, poses), whole);
     for (const std::size_t batch : {1U, 7U}) {
@@ -163,7 +163,7 @@ TEST_P(GlPaths, EveryBatchSizeGivesTheSameBytes) {
       }
       expect_equal_bytes(split, whole);
     }
-    expect_equal_bytes(score(*scorer(path, a, b, {.resolution = kResolution}), poses), whole);
+    expect_equal_bytes(score(*scorer(path, a, b, {.resolution = kPathResolution}), poses), whole);
   }
 }
 
@@ -176,7 +176,7 @@ TEST_P(GlPaths, FacesWithCornersThatAreNotFiniteAreNotDrawn) {
   broken.faces.push_back({0, 1, last});
   broken.faces.push_back({last - 1, 1, 2});
   const auto poses = test::random_poses(3, 37);
-  const ViewOptions options{.resolution = kResolution, .view_side = 2.9};
+  const ViewOptions options{.resolution = kPathResolution, .view_side = 2.9};
   for (const Path path : {Path::Compute, Path::Pipeline}) {
     expect_equal_bytes(score(*scorer(path, broken, broken, options), poses),
                        score(*scorer(path, whole, whole, options), poses));
@@ -204,7 +204,7 @@ TEST_P(GlPaths, NoPathMisusesOpenGl) {
   const mesh::Mesh a = test::bumpy_sphere(2, 11);
   const auto poses = test::random_poses(20, 40);
   for (const Path path : {Path::Compute, Path::Pipeline}) {
-    const auto s = make_gl_scorer(engine, GetParam(), a, a, {.resolution = kResolution}, path);
+    const auto s = make_gl_scorer(engine, GetParam(), a, a, {.resolution = kPathResolution}, path);
     EXPECT_NO_THROW(score(*s, poses));
     EXPECT_NO_THROW(s->depth_maps(poses[0]));
     EXPECT_NO_THROW(score(*s, {}));
@@ -214,13 +214,13 @@ TEST_P(GlPaths, NoPathMisusesOpenGl) {
 TEST_P(GlPaths, ScorersInTwoThreadsTakeTurns) {
   const mesh::Mesh a = test::bumpy_sphere(2, 10);
   const auto poses = test::random_poses(40, 39);
-  const auto truth = score(*scorer(Path::Auto, a, a, {.resolution = kResolution}), poses);
+  const auto truth = score(*scorer(Path::Auto, a, a, {.resolution = kPathResolution}), poses);
   std::vector<std::vector<PairScore>> found(2);
   std::vector<std::thread> threads;
   threads.reserve(found.size());
   for (std::vector<PairScore>& scores : found) {
     threads.emplace_back([&] {
-      const auto mine = scorer(Path::Auto, a, a, {.resolution = kResolution});
+      const auto mine = scorer(Path::Auto, a, a, {.resolution = kPathResolution});
       for (int k = 0; k < 3; ++k) scores = score(*mine, poses);
     });
   }

@@ -10,6 +10,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "core/angle.hpp"
 #include "match/detail/fft-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -252,12 +253,10 @@ HWY_EXPORT(transform_map);
 HWY_EXPORT(correlate_spectra);
 HWY_EXPORT(find_maxima);
 
-constexpr double kTurn = 2.0 * 3.14159265358979323846;
-
 /// Rows and strides are whole vectors of the widest processor.
 constexpr std::size_t kBlock = 16;
 
-std::size_t whole_blocks(std::size_t count) {
+std::size_t padded(std::size_t count) {
   return (count + kBlock - 1) / kBlock * kBlock;
 }
 
@@ -276,14 +275,14 @@ void transform(CorrelateFields& fields, const ReliefMap& map, float scale, const
       rows[2][i] = scale * u;
       rows[3][i] = scale * v;
     }
-    for (float* row : rows) std::fill(row + width, row + whole_blocks(width), 0.0F);
+    for (float* row : rows) std::fill(row + width, row + padded(width), 0.0F);
   }
   HWY_DYNAMIC_DISPATCH(transform_map)(fields, width, height, to);
 }
 
 void set_filter(BorderFilter& filter, std::size_t length) {
-  filter.slope.reserve(whole_blocks(length));
-  filter.mean.reserve(whole_blocks(length));
+  filter.slope.reserve(padded(length));
+  filter.mean.reserve(padded(length));
   for (std::size_t f = 0; f < length; ++f) {
     double slope = 0.0;
     double mean = 0.0;
@@ -330,10 +329,10 @@ void resize(CorrelateFields& fields, FftSize size) {
   fields.size = size;
   fields.along_u = &tables_of(size.width);
   fields.along_v = &tables_of(size.height);
-  const std::size_t rows = whole_blocks(size.height);
-  const std::size_t columns = whole_blocks(size.width);
+  const std::size_t rows = padded(size.height);
+  const std::size_t columns = padded(size.width);
   fields.map_stride = columns;
-  fields.spectrum_stride = whole_blocks(size.height + 1);
+  fields.spectrum_stride = padded(size.height + 1);
   fields.score_stride = columns + kBlock;
   const std::size_t pixels = rows * fields.map_stride;
   const std::size_t frequencies = columns * fields.spectrum_stride;

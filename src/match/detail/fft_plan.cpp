@@ -1,4 +1,5 @@
 #include "match/detail/fft_plan.hpp"
+#include "core/angle.hpp"
 
 #include <array>
 #include <cmath>
@@ -8,7 +9,6 @@
 namespace rejoin::match::detail {
 namespace {
 
-constexpr double kTurn = 2.0 * 3.14159265358979323846;
 constexpr std::size_t kSmallest = 8;
 /// Lines that are transformed in step on the widest vectors.
 constexpr std::size_t kLines = 16;

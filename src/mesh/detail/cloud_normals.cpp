@@ -15,8 +15,8 @@
 namespace rejoin::mesh::detail {
 namespace {
 
-constexpr std::size_t kDirections = 32;  // and their opposites
-constexpr float kOpposite = -0.5F;       // cosine of normals
+constexpr std::size_t kAxes = 32;   // and their opposites
+constexpr float kOpposite = -0.5F;  // cosine of normals
 constexpr double kStray = 5e-4;     // share of neighbours with opposite normals that a cloud is let pass with
 constexpr double kAgreeing = 0.95;  // share of good normals that turning along the surface leaves, or turns
 constexpr double kBetter = 0.2;     // of all rays, that leave from the front and not from the back
@@ -97,7 +97,7 @@ bool points_inwards(const std::vector<std::uint32_t>& part, const std::vector<gl
     }
     outwards += glm::dot(direction, normals[furthest]);
   };
-  for (const glm::vec3& direction : half_sphere_directions(kDirections)) {
+  for (const glm::vec3& direction : half_sphere_directions(kAxes)) {
     look(direction);
     look(-direction);
   }

@@ -6,18 +6,18 @@
 #include <queue>
 #include <tuple>
 
+#include "core/angle.hpp"
 #include "core/components.hpp"
 #include "mesh/neighbours.hpp"
 
 namespace rejoin::mesh::detail {
 namespace {
 
-constexpr double kDegree = 0.017453292519943295;
 constexpr float kSmallCone_deg = 20.0F;  // of the groups that facets are put together from
 constexpr std::size_t kCrumb = 6;        // samples: smaller groups are noise
-constexpr double kBeside = 2.5;  // spacings from one side of a border to the other: past an edge's rounding
-constexpr double kBeyond = 4.0;  // and no further
-constexpr float kBack = -0.5F;   // cosine of normals from which one sample lies behind the other
+constexpr double kBeside = 2.5;   // spacings from one side of a border to the other: past an edge's rounding
+constexpr double kBeyond = 4.0;   // and no further
+constexpr float kBehind = -0.5F;  // cosine of normals from which one sample lies behind the other
 constexpr double kLeastPairs = 4.0;         // of samples by which a border is known
 constexpr double kCrease = 15.0 * kDegree;  // mean bend from which a border is a crease
 constexpr double kCap = 30.0 * kDegree;  // half angle of the cap whose normals spread as far as a facet's may
@@ -84,7 +84,8 @@ class Merger {
         if (k <= i || groups_.of_sample[k] == groups_.of_sample[i] || ground.surface[k] != ground.surface[i])
           continue;
         const glm::vec3 between = ground.points[k] - ground.points[i];
-        if (glm::length(between) < beside || glm::dot(ground.normals[i], ground.normals[k]) < kBack) continue;
+        if (glm::length(between) < beside || glm::dot(ground.normals[i], ground.normals[k]) < kBehind)
+          continue;
         const double angle = angle_between(ground.normals[i], ground.normals[k]);
         const bool convex = glm::dot(between, ground.normals[k] - ground.normals[i]) > 0.0F;
         const auto x = static_cast<std::size_t>(groups_.of_sample[i]);

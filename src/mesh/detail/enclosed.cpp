@@ -15,7 +15,7 @@ namespace rejoin::mesh::detail {
 namespace {
 
 /// Askew to the axes, along which the faces of segmented scans lie.
-const std::array<glm::vec3, 6> kDirections{
+const std::array<glm::vec3, 6> kWaysOut{
     glm::normalize(glm::vec3(0.83F, 0.41F, 0.27F)),   glm::normalize(glm::vec3(-0.71F, 0.53F, -0.39F)),
     glm::normalize(glm::vec3(0.29F, -0.87F, 0.43F)),  glm::normalize(glm::vec3(-0.37F, -0.31F, 0.89F)),
     glm::normalize(glm::vec3(0.47F, -0.23F, -0.79F)), glm::normalize(glm::vec3(-0.59F, 0.67F, 0.33F))};
@@ -41,7 +41,7 @@ bool lies_inside(const RayScene& scene, const Mesh& mesh, const std::vector<std:
   for (std::size_t k = 0; k < faces.size(); k += step) {
     const glm::vec3& start = mesh.vertices[mesh.faces[faces[k]].x];
     if (!std::ranges::all_of(
-            kDirections, [&](const glm::vec3& direction) { return leaves_oddly(scene, start, direction); }))
+            kWaysOut, [&](const glm::vec3& direction) { return leaves_oddly(scene, start, direction); }))
       return false;
   }
   return true;

@@ -9,7 +9,7 @@
 namespace rejoin::outline::detail {
 namespace {
 
-constexpr int kRounds = 8;
+constexpr int kSteps = 8;
 /// Closest points are looked for this many samples to either side of where the boundary runs on.
 constexpr int kWindow = 5;
 /// The borders run against each other if their directions' cosine is below minus this.
@@ -78,11 +78,11 @@ class Fitter {
 
   std::optional<ContactFit> run() {
     if (core_end_ - core_begin_ + 1 < static_cast<std::int32_t>(kLeastContacts)) return std::nullopt;
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kSteps; ++round) {
       find_contacts(round >= 2);
       judge();
       if (!keep_boundary()) return std::nullopt;
-      if (round + 1 < kRounds) improve();
+      if (round + 1 < kSteps) improve();
     }
     return std::move(fit_);
   }

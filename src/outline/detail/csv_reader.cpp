@@ -23,7 +23,7 @@ constexpr std::string_view kSeparators = ",; \t\r";
 constexpr std::string_view kBlanks = " \t";
 constexpr std::array<std::string_view, 5> kNamesOfX = {"x", "lon", "long", "longitude", "easting"};
 constexpr std::array<std::string_view, 4> kNamesOfY = {"y", "lat", "latitude", "northing"};
-constexpr const char* kMend = "write \"x,y\" in each line";
+constexpr const char* kCsvMend = "write \"x,y\" in each line";
 
 /// Which columns hold x and y.
 struct Columns {
@@ -189,9 +189,9 @@ bool are_outlines(const std::vector<std::vector<glm::dvec2>>& lines) {
 }
 
 /// Reads the lines of one file.
-class Reader {
+class CsvReader {
  public:
-  Reader(const std::string& path, std::vector<std::string>& notes) : path_(path), notes_(notes) {}
+  CsvReader(const std::string& path, std::vector<std::string>& notes) : path_(path), notes_(notes) {}
 
   void read(std::string_view text) {
     for (std::string_view rest = text; !rest.empty() && !blanks_part_;)
@@ -203,7 +203,7 @@ class Reader {
       if (content.empty() || content[0] == '#') continue;
       add(columns_.first_two() ? content : line, line, number);  // an empty first cell counts as a column
     }
-    if (lines.empty()) throw InputError(path_, "holds no points", kMend);
+    if (lines.empty()) throw InputError(path_, "holds no points", kCsvMend);
     if (!are_outlines(lines)) join_lines();
     require_no_count();
     tell_doubts();
@@ -224,7 +224,7 @@ class Reader {
                        fmt::format("line {} has commas that may be decimal ones or part columns", number),
                        "write \"x,y\" with decimal points in each line");
     }
-    if (!point) throw InputError(path_, fmt::format("line {} is no point", number), kMend);
+    if (!point) throw InputError(path_, fmt::format("line {} is no point", number), kCsvMend);
     require_fields(*plain, number);
     if (blank_ || lines.empty()) lines.emplace_back();
     blank_ = false;
@@ -309,7 +309,7 @@ std::optional<std::string> doubt_degrees(const std::string& path, const std::vec
 
 std::vector<Rings> read_csv(const std::string& path, const std::string& file,
                             std::vector<std::string>& notes) {
-  Reader reader(path, notes);
+  CsvReader reader(path, notes);
   reader.read(without_byte_order_mark(file));
   std::vector<Rings> outlines;
   for (std::size_t i = 0; i < reader.lines.size(); ++i) {

@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kMend = "give a GeoJSON file with Polygon or MultiPolygon geometries";
+constexpr const char* kGeoJsonMend = "give a GeoJSON file with Polygon or MultiPolygon geometries";
 
 /// What a feature is called: by its property "name", in small letters or not, else by its id; empty: nothing.
 std::string label_of(const json& feature) {
@@ -27,9 +27,9 @@ std::string label_of(const json& feature) {
   return feature.contains("id") ? text(feature["id"]) : "";
 }
 
-class Reader {
+class GeoJsonReader {
  public:
-  explicit Reader(const std::string& path) : path_(path) {}
+  explicit GeoJsonReader(const std::string& path) : path_(path) {}
 
   /// \pre its JSON is no deeper than kDeepestJson: this calls itself
   void read(const json& value) {
@@ -57,7 +57,7 @@ class Reader {
   }
 
   [[noreturn]] void fail(const std::string& problem) const {
-    throw InputError(path_, fmt::format("polygon {}: {}", result.size() + 1, problem), kMend);
+    throw InputError(path_, fmt::format("polygon {}: {}", result.size() + 1, problem), kGeoJsonMend);
   }
 
   const json& member(const json& value, const char* name) const {
@@ -105,12 +105,12 @@ bool says_degrees(const json& file) {
 std::vector<Rings> read_geojson(const std::string& path, const std::string& text,
                                 std::vector<std::string>& notes) {
   if (json_depth(text) > kDeepestJson)
-    throw InputError(path, fmt::format("its JSON is nested deeper than {}", kDeepestJson), kMend);
+    throw InputError(path, fmt::format("its JSON is nested deeper than {}", kDeepestJson), kGeoJsonMend);
   const json value = json::parse(text, nullptr, false);
-  if (value.is_discarded()) throw InputError(path, "is no JSON, or cut short", kMend);
-  Reader reader(path);
+  if (value.is_discarded()) throw InputError(path, "is no JSON, or cut short", kGeoJsonMend);
+  GeoJsonReader reader(path);
   reader.read(value);
-  if (reader.result.empty()) throw InputError(path, "holds no polygon", kMend);
+  if (reader.result.empty()) throw InputError(path, "holds no polygon", kGeoJsonMend);
   if (!says_degrees(value)) return std::move(reader.result);
   if (std::optional<std::string> doubt = doubt_degrees(path, reader.result[0].rings[0]))
     notes.push_back(std::move(*doubt));

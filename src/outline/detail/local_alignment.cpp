@@ -9,14 +9,14 @@ namespace rejoin::outline::detail {
 namespace {
 
 /// A cell's score above, and the cell where its alignment began below, so that one comparison carries both.
-using Cell = std::int64_t;
+using Score = std::int64_t;
 constexpr int kScoreShift = 32;
 constexpr int kRowShift = 16;
 
-Cell fresh(std::size_t i, std::size_t j) {
-  return static_cast<Cell>(i << kRowShift | j);
+Score fresh(std::size_t i, std::size_t j) {
+  return static_cast<Score>(i << kRowShift | j);
 }
-int score_of(Cell cell) {
+int score_of(Score cell) {
   return static_cast<int>(cell >> kScoreShift);
 }
 
@@ -29,7 +29,7 @@ std::vector<std::uint8_t> extended(std::span<const std::uint8_t> values) {
 }
 
 struct End {
-  Cell cell = 0;
+  Score cell = 0;
   std::uint32_t row = 0;
   std::uint32_t column = 0;
 };
@@ -42,7 +42,7 @@ class Aligner {
         size_b_(b.size()),
         model_(model),
         options_(options),
-        gap_(static_cast<Cell>(options.skip) << kScoreShift),
+        gap_(static_cast<Score>(options.skip) << kScoreShift),
         a_(extended(a)),
         b_(extended(b)) {}
 
@@ -54,21 +54,21 @@ class Aligner {
   }
 
  private:
-  static Cell cell_of(int score) { return static_cast<Cell>(score) * (Cell{1} << kScoreShift); }
+  static Score cell_of(int score) { return static_cast<Score>(score) * (Score{1} << kScoreShift); }
 
   /// The best end in every row and in every column.
   void fill() {
-    std::vector<Cell> row(b_.size() + 1);
+    std::vector<Score> row(b_.size() + 1);
     std::vector<End> columns(b_.size());
     ends_.reserve(a_.size() + b_.size());
     for (std::size_t j = 0; j <= b_.size(); ++j) row[j] = fresh(0, j);
     for (std::size_t i = 0; i < a_.size(); ++i) {
-      Cell diagonal = row[0];
+      Score diagonal = row[0];
       row[0] = fresh(i + 1, 0);
       End best{0, static_cast<std::uint32_t>(i), 0};
       const std::int16_t* scores = model_.row(a_[i]);
       for (std::size_t j = 0; j < b_.size(); ++j) {
-        Cell cell = std::max(diagonal + cell_of(scores[b_[j]]), std::max(row[j], row[j + 1]) - gap_);
+        Score cell = std::max(diagonal + cell_of(scores[b_[j]]), std::max(row[j], row[j + 1]) - gap_);
         if (score_of(cell) <= 0) cell = fresh(i + 1, j + 1);
         diagonal = row[j + 1];
         row[j + 1] = cell;
@@ -119,15 +119,15 @@ class Aligner {
     const std::size_t columns = end.column + 1 - first_column;
     enum : std::uint8_t { kMatch, kSkipA, kSkipB };
     std::vector<std::uint8_t> steps((rows + 1) * (columns + 1), kMatch);
-    std::vector<Cell> row(columns + 1);
-    for (std::size_t j = 0; j <= columns; ++j) row[j] = -gap_ * static_cast<Cell>(j);
+    std::vector<Score> row(columns + 1);
+    for (std::size_t j = 0; j <= columns; ++j) row[j] = -gap_ * static_cast<Score>(j);
     for (std::size_t i = 1; i <= rows; ++i) {
-      Cell diagonal = row[0];
-      row[0] = -gap_ * static_cast<Cell>(i);
+      Score diagonal = row[0];
+      row[0] = -gap_ * static_cast<Score>(i);
       for (std::size_t j = 1; j <= columns; ++j) {
-        const Cell match = diagonal + cell_of(model_.score(a_[first_row + i - 1], b_[first_column + j - 1]));
-        const Cell skip_a = row[j] - gap_;
-        const Cell skip_b = row[j - 1] - gap_;
+        const Score match = diagonal + cell_of(model_.score(a_[first_row + i - 1], b_[first_column + j - 1]));
+        const Score skip_a = row[j] - gap_;
+        const Score skip_b = row[j - 1] - gap_;
         diagonal = row[j];
         row[j] = std::max(match, std::max(skip_a, skip_b));
         steps[i * (columns + 1) + j] = row[j] == match ? kMatch : row[j] == skip_a ? kSkipA : kSkipB;
@@ -150,7 +150,7 @@ class Aligner {
   std::size_t size_b_;
   const TurnModel& model_;
   LocalOptions options_;
-  Cell gap_;
+  Score gap_;
   std::vector<std::uint8_t> a_;
   std::vector<std::uint8_t> b_;
   std::vector<End> ends_;

@@ -137,7 +137,7 @@ struct Overlap {
   PairedSamples shift;
 };
 
-constexpr std::int32_t kSameDiagonal = 3;
+constexpr std::int32_t kSameTrack = 3;
 
 /// j of a path at row i; the path's rows never skip.
 std::int32_t j_at(const std::vector<PairedSamples>& path, std::int32_t i) {
@@ -157,7 +157,7 @@ Overlap overlap(const Candidate& a, const Candidate& b, std::size_t size_a, std:
     const std::int32_t middle = (low + high) / 2;
     const std::int32_t apart = j_at(a.path, middle) - j_at(b.path, middle - turns * turn_a);
     const auto whole = static_cast<std::int32_t>(std::lround(static_cast<double>(apart) / turn_b)) * turn_b;
-    if (std::abs(apart - whole) > kSameDiagonal || high - low + 1 <= best.rows) continue;
+    if (std::abs(apart - whole) > kSameTrack || high - low + 1 <= best.rows) continue;
     best = {high - low + 1, {turns * turn_a, whole}};
   }
   return best;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kWidest = 60;            // pixels
 constexpr double kWidestShare = 0.05;  // of the picture
-constexpr int kSoft = 2;               // lines behind it over which its end may be blurred
+constexpr int kBlurred = 2;            // lines behind it over which its end may be blurred
 constexpr float kOther = 0.06F;        // colour, 0..1 a channel, root of the squares' sum
 constexpr double kPieces = 0.4;        // of a line farther inside: more may be pieces than background
 constexpr double kWhole = 0.9;         // of a line's pixels that have another colour than what lies behind
@@ -62,15 +62,15 @@ bool is_other(const cv::Mat& line, const cv::Vec3f& colour) {
 }
 
 /// Lines along an edge of another colour than what lies behind.
-struct Band {
+struct EdgeBand {
   Edge edge;
   const char* name;
   int lines = 0;  ///< 0: there are none, or they go on too far, or the colour changes slowly
   cv::Vec3f behind;
 };
 
-Band band_at(const cv::Mat& image, Edge edge, const char* name) {
-  Band band{edge, name, 0, {}};
+EdgeBand band_at(const cv::Mat& image, Edge edge, const char* name) {
+  EdgeBand band{edge, name, 0, {}};
   const int most = std::min(kWidest, static_cast<int>(kWidestShare * std::min(image.rows, image.cols)));
   const cv::Mat inside = line_at(image, edge, 2 * most);
   band.behind = middle_colour(inside);
@@ -79,19 +79,19 @@ Band band_at(const cv::Mat& image, Edge edge, const char* name) {
   while (lines < most && is_other(line_at(image, edge, lines), band.behind)) ++lines;
   if (lines == 0 || lines == most) return band;
   // A colour that changes slowly is light.
-  const cv::Vec3f next = middle_colour(line_at(image, edge, lines + kSoft));
-  if (is_other(line_at(image, edge, std::max(0, lines - 1 - kSoft)), next)) band.lines = lines + kSoft;
+  const cv::Vec3f next = middle_colour(line_at(image, edge, lines + kBlurred));
+  if (is_other(line_at(image, edge, std::max(0, lines - 1 - kBlurred)), next)) band.lines = lines + kBlurred;
   return band;
 }
 
 /// Whether what lies behind all bands is what the other edges have: else it is the pieces, and the bands are the background beside them.
-bool lie_before_background(const cv::Mat& image, const std::vector<Band>& bands) {
-  const auto is_band = [](const Band& band) { return band.lines > 0; };
+bool lie_before_background(const cv::Mat& image, const std::vector<EdgeBand>& bands) {
+  const auto is_band = [](const EdgeBand& band) { return band.lines > 0; };
   if (std::ranges::all_of(bands, is_band)) return false;
-  for (const Band& free : bands) {
+  for (const EdgeBand& free : bands) {
     if (is_band(free)) continue;
     const cv::Vec3f outermost = middle_colour(line_at(image, free.edge, 0));
-    for (const Band& band : bands)
+    for (const EdgeBand& band : bands)
       if (is_band(band) && cv::norm(outermost - band.behind) > static_cast<double>(kOther)) return false;
   }
   return true;
@@ -100,11 +100,12 @@ bool lie_before_background(const cv::Mat& image, const std::vector<Band>& bands)
 }  // namespace
 
 std::string paint_over_edges(cv::Mat& image) {
-  const std::vector<Band> bands{band_at(image, Edge::Upper, "upper"), band_at(image, Edge::Right, "right"),
-                                band_at(image, Edge::Lower, "lower"), band_at(image, Edge::Left, "left")};
+  const std::vector<EdgeBand> bands{band_at(image, Edge::Upper, "upper"),
+                                    band_at(image, Edge::Right, "right"),
+                                    band_at(image, Edge::Lower, "lower"), band_at(image, Edge::Left, "left")};
   if (!lie_before_background(image, bands)) return {};
   std::string told;
-  for (const Band& band : bands) {
+  for (const EdgeBand& band : bands) {
     if (band.lines == 0) continue;
     const cv::Mat behind = line_at(image, band.edge, band.lines);
     for (int k = 0; k < band.lines; ++k) behind.copyTo(line_at(image, band.edge, k));

@@ -118,9 +118,9 @@ std::vector<Rings> nest(const std::vector<Shape>& shapes, std::size_t& separate)
   return pieces;
 }
 
-class Reader {
+class SvgReader {
  public:
-  Reader(const std::string& path, std::vector<std::string>& notes) : path_(path), notes_(notes) {}
+  SvgReader(const std::string& path, std::vector<std::string>& notes) : path_(path), notes_(notes) {}
 
   void read(const pugi::xml_node& root) {
     Scope page;
@@ -319,7 +319,7 @@ pugi::xml_node parse(pugi::xml_document& document, const std::string& path, cons
 std::vector<Rings> read_svg(const std::string& path, const std::string& text,
                             std::vector<std::string>& notes) {
   pugi::xml_document document;
-  Reader reader(path, notes);
+  SvgReader reader(path, notes);
   reader.read(parse(document, path, text));
   return reader.pieces();
 }

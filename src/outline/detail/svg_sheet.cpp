@@ -15,7 +15,7 @@
 namespace rejoin::outline::detail {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\n\f";
+constexpr std::string_view kCssBlanks = " \t\r\n\f";
 constexpr std::string_view kImportant = "!important";
 
 /// "path.a.b#c": an element's name or none, and what it must be called besides.
@@ -72,7 +72,7 @@ std::string without_comments(std::string text) {
 std::string_view take(std::string_view& text, char end) {
   const std::string_view part = text.substr(0, text.find(end));
   text.remove_prefix(std::min(part.size() + 1, text.size()));
-  return trimmed(part, kBlanks);
+  return trimmed(part, kCssBlanks);
 }
 
 /// What stands between braces that are open, taken off the text with the closing one; braces inside belong to it.
@@ -100,7 +100,7 @@ class Sheets {
     while (!text.empty()) {
       const std::size_t brace = text.find('{');
       const std::size_t semicolon = text.find(';');
-      if (semicolon < brace && trimmed(text, kBlanks).starts_with('@')) {  // "@import ...;"
+      if (semicolon < brace && trimmed(text, kCssBlanks).starts_with('@')) {  // "@import ...;"
         take(text, ';');
         continue;
       }

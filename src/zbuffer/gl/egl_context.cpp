@@ -19,7 +19,7 @@ namespace rejoin::zbuffer::gl {
 namespace {
 
 constexpr const char* kSubject = "backend gpu";
-constexpr const char* kMend =
+constexpr const char* kEglMend =
     "install libegl1 with a driver (libgl1-mesa-dri, or the GPU's own) or choose --backend raster";
 
 // X(member and name without "egl", type)
@@ -54,11 +54,11 @@ Egl open_egl(const ContextOptions& options) {
   const char* from_environment = std::getenv("REJOIN_EGL_LIBRARY");
   std::string file = from_environment != nullptr ? from_environment : "libEGL.so.1";
   if (!options.soname.empty()) file = options.soname;
-  const Library library(kSubject, file, kMend);
+  const Library library(kSubject, file, kEglMend);
   Egl egl;
 #define REJOIN_EGL_LOAD(name, type)           \
   egl.name = library.find<type>("egl" #name); \
-  if (egl.name == nullptr) throw BackendError(kSubject, file + " lacks egl" #name, kMend);
+  if (egl.name == nullptr) throw BackendError(kSubject, file + " lacks egl" #name, kEglMend);
   REJOIN_EGL_FUNCTIONS(REJOIN_EGL_LOAD)
 #undef REJOIN_EGL_LOAD
   const auto extension = [&]<typename Function>(Function& function, const char* name) {
@@ -164,7 +164,7 @@ class EglContext : public Context {
     if (good) return;
     std::array<char, 16> code{};
     std::snprintf(code.data(), code.size(), " (0x%04x)", static_cast<unsigned>(egl_.GetError()));
-    throw BackendError(kSubject, std::string("EGL: ") + problem + code.data(), kMend);
+    throw BackendError(kSubject, std::string("EGL: ") + problem + code.data(), kEglMend);
   }
 
   /// A config for a 1 x 1 pixel buffer where there is one, else any; none at all is fine for surfaceless
@@ -238,7 +238,7 @@ std::unique_ptr<Context> make_egl_context(const ContextOptions& options) {
   }
   if (software) return software;
   if (failure) std::rethrow_exception(failure);
-  throw BackendError(kSubject, "EGL knows no device and no surfaceless platform", kMend);
+  throw BackendError(kSubject, "EGL knows no device and no surfaceless platform", kEglMend);
 }
 
 }  // namespace rejoin::zbuffer::gl

@@ -47,16 +47,16 @@ using MakeCurrentFunction = GLboolean (*)(NativeContext* context, void* pixels, 
                                           GLsizei height);
 using FindFunction = AnyFunction (*)(const char* name);
 
-constexpr const char* kMend = "install libosmesa6 or choose --backend raster";
+constexpr const char* kOsMesaMend = "install libosmesa6 or choose --backend raster";
 
 Library open_library(const std::string& subject, const ContextOptions& options) {
   const char* from_environment = std::getenv("REJOIN_OSMESA_LIBRARY");
-  if (!options.soname.empty()) return {subject, options.soname, kMend};
-  if (from_environment != nullptr) return {subject, from_environment, kMend};
+  if (!options.soname.empty()) return {subject, options.soname, kOsMesaMend};
+  if (from_environment != nullptr) return {subject, from_environment, kOsMesaMend};
   try {
-    return {subject, "libOSMesa.so.8", kMend};
+    return {subject, "libOSMesa.so.8", kOsMesaMend};
   } catch (const BackendError&) {
-    return {subject, "libOSMesa.so.6", kMend};  // the library's name before Mesa 10
+    return {subject, "libOSMesa.so.6", kOsMesaMend};  // the library's name before Mesa 10
   }
 }
 
@@ -76,7 +76,7 @@ OsMesa find_functions(const std::string& subject, const Library& library) {
   };
   if (mesa.create == nullptr || mesa.destroy == nullptr || mesa.make_current == nullptr ||
       mesa.find == nullptr) {
-    throw BackendError(subject, "the library is no OSMesa with core profiles", kMend);
+    throw BackendError(subject, "the library is no OSMesa with core profiles", kOsMesaMend);
   }
   return mesa;
 }
@@ -89,7 +89,7 @@ class OsMesaContext : public Context {
                                               kMajorVersion, 4,     kMinorVersion, 3, 0,        0};
     const AllocationsNotOurs allocations;
     context_ = {mesa_.create(kAttributes.data(), nullptr), mesa_.destroy};
-    if (!context_) throw BackendError(subject(), "OSMesa cannot make an OpenGL 4.3 context", kMend);
+    if (!context_) throw BackendError(subject(), "OSMesa cannot make an OpenGL 4.3 context", kOsMesaMend);
     const Bound bound(*this);
     load(mesa_.find, options.debug);
   }
@@ -98,7 +98,7 @@ class OsMesaContext : public Context {
     const AllocationsNotOurs allocations;
     if (mesa_.make_current(context_.get(), pixels_.data(), GL_UNSIGNED_BYTE, GLsizei{kSide},
                            GLsizei{kSide}) == GL_FALSE) {
-      throw BackendError(subject(), "the OSMesa context cannot be made current", kMend);
+      throw BackendError(subject(), "the OSMesa context cannot be made current", kOsMesaMend);
     }
   }
   void release() noexcept override { mesa_.make_current(nullptr, nullptr, 0, 0, 0); }
