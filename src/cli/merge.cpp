@@ -55,7 +55,7 @@ class MergeCommand final : public Command {
       console.warning(name + ": is gone from the scans; its pairs are forgotten");
     if (missing > 0 && !merged.absent.empty()) console.warning(told_absent(merged.absent));
     if (merged.failed == 0) return kDone;
-    console.warning(counted(merged.failed, "pair") + " failed; the table tells why");
+    console.warning(counted(merged.failed, "pair") + " failed; pairs.csv tells why, under error");
     return kFailure;
   }
 

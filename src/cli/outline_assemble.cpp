@@ -127,7 +127,7 @@ class OutlineAssembleCommand final : public Command {
     app.add_option("--json", json_, "write poses and joins (-: to stdout)")
         ->type_name("FILE")
         ->group("Output");
-    app.add_option("--out", out_, "write pictures of the objects, their joins and the similarity matrix")
+    app.add_option("--out", out_, "write pictures of objects, joins and similarity")
         ->type_name("DIR")
         ->group("Output");
     add_outline_method(app, method_);
@@ -136,7 +136,7 @@ class OutlineAssembleCommand final : public Command {
     app.add_flag("--keep-rectangles", pictures_.keep_rectangles,
                  "keep rectangles beside other pieces, as of rulers")
         ->group("Input");
-    app.add_option("--leave-out", left_out_, "a piece that is none, as pieces.png names it; repeatable")
+    app.add_option("--leave-out", left_out_, "no piece, by its name in pieces.png; repeatable")
         ->type_name("NAME")
         ->allow_extra_args(false)
         ->group("Input");

@@ -36,11 +36,8 @@ void require_calibrated(const std::vector<outline::CalibratedLevel>& levels, con
 class OutlineCalibrateCommand final : public Command {
  public:
   void define(CLI::App& app) override {
-    app.add_option("DIR", folder_,
-                   "folder of pieces whose joins are known: png, jpg, tif, csv, svg or geojson")
-        ->required()
-        ->group("Input");
-    app.add_option("--joins", joins_, "JSON of an assembly of them, or their truth (DIR/truth.json)")
+    app.add_option("DIR", folder_, "folder of pieces whose joins are known")->required()->group("Input");
+    app.add_option("--joins", joins_, "assembly or truth as JSON (DIR/truth.json)")
         ->type_name("FILE")
         ->group("Input");
     app.add_option("--json", json_, "write the parameters (-: to stdout)")

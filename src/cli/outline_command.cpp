@@ -41,21 +41,17 @@ const Choices<OutlineMethod> kMethods{{"auto", OutlineMethod::Automatic},
 }  // namespace
 
 void add_outline_method(CLI::App& app, OutlineMethod& method) {
-  add_choice(app, "--method", method, kMethods,
-             "how borders are compared; auto: multiscale, in assemble emd next (auto)")
-      ->group("Search");
+  add_choice(app, "--method", method, kMethods, "how to compare (auto)")->group("Search");
 }
 
 void add_calibration(CLI::App& app, std::optional<std::string>& calibration) {
-  app.add_option("--calibration", calibration,
-                 "numbers from outline calibrate, for multiscale (the usual ones)")
+  app.add_option("--calibration", calibration, "from outline calibrate (the usual numbers)")
       ->type_name("FILE")
       ->group("Input");
 }
 
 void add_dust(CLI::App& app, outline::ExtractOptions& options) {
-  add_number(app, "--dust", options.dust, {0, 50, "PERCENT"},
-             "what is smaller in a picture is no piece, 0 to 50 percent of the largest piece's area (2)")
+  add_number(app, "--dust", options.dust, {0, 50, "PERCENT"}, "smallest piece, 0 to 50 % of the largest (2)")
       ->group("Input");
 }
 

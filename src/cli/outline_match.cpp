@@ -50,12 +50,10 @@ std::string summary(const outline::Piece& a, const outline::Piece& b, const outl
 class OutlineMatchCommand final : public Command {
  public:
   void define(CLI::App& app) override {
-    app.add_option(
-           "A", path_a_,
-           "piece: png, jpg, tif, csv, svg or geojson, FILE#2 the second in it; or a scan, for its rim")
+    app.add_option("A", path_a_, "png, jpg, tif, csv, svg, geojson, or a scan")->required()->group("Input");
+    app.add_option("B", path_b_, "piece that is moved; FILE#2: the second in FILE")
         ->required()
         ->group("Input");
-    app.add_option("B", path_b_, "piece that is moved")->required()->group("Input");
     app.add_option("--json", json_, "write pose, score and boundary (-: to stdout)")
         ->type_name("FILE")
         ->group("Output");

@@ -31,17 +31,15 @@ class OutlineShatterCommand final : public Command {
         ->type_name("DIR")
         ->required()
         ->group("Output");
-    add_choice(app, "--format", format_, kFormats, "kind of files; pixels: CSV of edge pixels (csv)")
+    add_choice(app, "--format", format_, kFormats, "pixels: of edges (csv)")
         ->group("Output");
     app.option_defaults()->group("Objects");
     CLI::Option* shapes =
         add_number(app, "--shapes", shapes_, {1, 10000}, "random polygons to break, 1 to 10000 (1)");
-    add_number(app, "--tiles", tiles_, {1, 10000},
-               "ceramic tiles of 100 to 150 mm a side instead, 1 to 10000")
+    add_number(app, "--tiles", tiles_, {1, 10000}, "tiles of 100 to 150 mm instead, 1 to 10000")
         ->excludes(shapes);
     add_number(app, "--pieces", options_.pieces, {2, 100000}, "in all, 2 to 100000 (8)");
-    add_number(app, "--resolution", resolution_, {10, 2400},
-               "10 to 2400; shapes: pixels a unit (100), tiles: dpi (300)");
+    add_number(app, "--resolution", resolution_, {10, 2400}, "10 to 2400; a unit (100), of tiles dpi (300)");
     app.option_defaults()->group("Damage");
     add_number(app, "--wear", options_.wear, {0, 20, "PX"}, "pixels worn off the edges, 0 to 20 (0)");
     add_number(app, "--noise", options_.noise, {0, 3, "PX"},

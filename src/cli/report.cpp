@@ -18,7 +18,7 @@ namespace {
 class ReportCommand final : public Command {
  public:
   void define(CLI::App& app) override {
-    app.add_option("RUN", run_, "folder of rejoin batch, with assembly.json if rejoin assemble was there")
+    app.add_option("RUN", run_, "folder of rejoin batch, and of assemble after it")
         ->required()
         ->group("Input");
     app.add_option("--out", out_, "the page (RUN/report.html; -: to stdout)")
