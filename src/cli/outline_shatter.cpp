@@ -31,8 +31,7 @@ class OutlineShatterCommand final : public Command {
         ->type_name("DIR")
         ->required()
         ->group("Output");
-    add_choice(app, "--format", format_, kFormats, "pixels: of edges (csv)")
-        ->group("Output");
+    add_choice(app, "--format", format_, kFormats, "pixels: of edges (csv)")->group("Output");
     app.option_defaults()->group("Objects");
     CLI::Option* shapes =
         add_number(app, "--shapes", shapes_, {1, 10000}, "random polygons to break, 1 to 10000 (1)");

@@ -9,6 +9,7 @@
 #include "core/random.hpp"
 #include "mesh/surface.hpp"
 #include "shapes.hpp"
+#include "shatter/surface_nets.hpp"
 
 namespace rejoin::mesh {
 namespace {
@@ -125,6 +126,45 @@ TEST(SurfaceOfCloud, FollowsASharpWedge) {
   // Two squares of 2 x 2; the cut-off tip is half a spacing wide.
   EXPECT_GT(surface_area(surface), 0.94 * 8);
   EXPECT_LT(surface_area(surface), 1.01 * 8);
+}
+
+double smooth_maximum(double a, double b) {
+  constexpr double kReach = 4.0;
+  const double near = std::max(0.0, kReach - std::abs(a - b)) / kReach;
+  return std::max(a, b) + 0.25 * kReach * near * near;
+}
+
+/// A chip, one of whose edges is sharp (25 degrees) and all others are rounded.  Planes through neighbours of the sharp edge lie between its
+/// sides, so that normals turn little from one to the other there: the way around the other edges is the right one.
+TEST(EstimateNormals, BothSidesOfASharpEdgePointOutwards) {
+  const double slope = std::tan(25.0 * std::numbers::pi / 180.0);
+  const shatter::Grid grid{.centre = {20, 0, 8}, .size = 64, .spacing = 0.4};
+  const Mesh chip = shatter::surface_nets(
+      [&](const glm::dvec3& p) {
+        const double sharp = std::max(-p.z, (p.z - slope * p.x) / std::hypot(1.0, slope));
+        return smooth_maximum(sharp, smooth_maximum(p.x - 40.0, std::abs(p.y) - 22.0));
+      },
+      grid, Context{});
+  std::vector<glm::vec3> outwards(chip.vertices.size(), glm::vec3(0.0F));
+  for (const glm::uvec3& f : chip.faces) {
+    const glm::vec3 normal =
+        glm::cross(chip.vertices[f.y] - chip.vertices[f.x], chip.vertices[f.z] - chip.vertices[f.x]);
+    for (int k = 0; k < 3; ++k) outwards[f[k]] += normal;
+  }
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    Random random(seed);
+    Mesh cloud = test::spread(1.2F, [&](glm::vec3& point, glm::vec3& normal) {
+      const auto k = static_cast<std::size_t>(random.uniform() * static_cast<double>(chip.vertices.size()));
+      point = chip.vertices[k];
+      normal = outwards[k];
+    });
+    const std::vector<glm::vec3> truth = cloud.normals;
+    cloud.normals.clear();
+    estimate_normals(cloud);
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < truth.size(); ++i) wrong += glm::dot(cloud.normals[i], truth[i]) < 0 ? 1 : 0;
+    EXPECT_LT(wrong, truth.size() / 20) << "seed " << seed;
+  }
 }
 
 TEST(SurfaceOfCloud, LeavesWideHolesOpenAndClosesSmallOnes) {

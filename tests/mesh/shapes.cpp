@@ -32,45 +32,6 @@ class Builder {
   std::map<std::tuple<float, float, float>, std::uint32_t> index_;
 };
 
-/// Dart throwing: keeps points of `draw` that are at least `spacing` from all kept ones, until none has fitted for long.
-Mesh spread(float spacing, const std::function<void(glm::vec3& point, glm::vec3& normal)>& draw) {
-  using Cell = std::tuple<int, int, int>;
-  std::map<Cell, std::vector<std::uint32_t>> grid;
-  const auto cell_of = [&](const glm::vec3& p, int k) {
-    return static_cast<int>(std::floor(p[k] / spacing));
-  };
-  Mesh cloud;
-  const auto fits = [&](const glm::vec3& p) {
-    for (int i = -1; i <= 1; ++i) {
-      for (int j = -1; j <= 1; ++j) {
-        for (int k = -1; k <= 1; ++k) {
-          const auto found = grid.find({cell_of(p, 0) + i, cell_of(p, 1) + j, cell_of(p, 2) + k});
-          if (found == grid.end()) continue;
-          for (const std::uint32_t other : found->second) {
-            if (glm::distance(p, cloud.vertices[other]) < spacing) return false;
-          }
-        }
-      }
-    }
-    return true;
-  };
-  for (int misses = 0; misses < 3000;) {
-    glm::vec3 point;
-    glm::vec3 normal;
-    draw(point, normal);
-    if (!fits(point)) {
-      ++misses;
-      continue;
-    }
-    misses = 0;
-    grid[{cell_of(point, 0), cell_of(point, 1), cell_of(point, 2)}].push_back(
-        static_cast<std::uint32_t>(cloud.vertices.size()));
-    cloud.vertices.push_back(point);
-    cloud.normals.push_back(normal);
-  }
-  return cloud;
-}
-
 }  // namespace
 
 Mesh icosphere(float radius, int level) {
@@ -125,6 +86,44 @@ Mesh box(const glm::vec3& size, int cells) {
     }
   }
   return builder.mesh;
+}
+
+Mesh spread(float spacing, const std::function<void(glm::vec3& point, glm::vec3& normal)>& draw) {
+  using Cell = std::tuple<int, int, int>;
+  std::map<Cell, std::vector<std::uint32_t>> grid;
+  const auto cell_of = [&](const glm::vec3& p, int k) {
+    return static_cast<int>(std::floor(p[k] / spacing));
+  };
+  Mesh cloud;
+  const auto fits = [&](const glm::vec3& p) {
+    for (int i = -1; i <= 1; ++i) {
+      for (int j = -1; j <= 1; ++j) {
+        for (int k = -1; k <= 1; ++k) {
+          const auto found = grid.find({cell_of(p, 0) + i, cell_of(p, 1) + j, cell_of(p, 2) + k});
+          if (found == grid.end()) continue;
+          for (const std::uint32_t other : found->second) {
+            if (glm::distance(p, cloud.vertices[other]) < spacing) return false;
+          }
+        }
+      }
+    }
+    return true;
+  };
+  for (int misses = 0; misses < 3000;) {
+    glm::vec3 point;
+    glm::vec3 normal;
+    draw(point, normal);
+    if (!fits(point)) {
+      ++misses;
+      continue;
+    }
+    misses = 0;
+    grid[{cell_of(point, 0), cell_of(point, 1), cell_of(point, 2)}].push_back(
+        static_cast<std::uint32_t>(cloud.vertices.size()));
+    cloud.vertices.push_back(point);
+    cloud.normals.push_back(normal);
+  }
+  return cloud;
 }
 
 Mesh box_cloud(const glm::vec3& size, float spacing, std::uint64_t seed) {

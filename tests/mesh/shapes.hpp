@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "mesh/mesh.hpp"
@@ -14,6 +15,9 @@ Mesh icosphere(float radius, int level);
 
 /// Box -size/2 .. size/2, every side cut into cells x cells x 2 faces, closed, wound outwards.
 Mesh box(const glm::vec3& size, int cells);
+
+/// Dart throwing: keeps points of `draw` that are at least `spacing` from all kept ones, until none has fitted for long.
+Mesh spread(float spacing, const std::function<void(glm::vec3& point, glm::vec3& normal)>& draw);
 
 /// Points spread evenly (no two closer than `spacing`) over a box's sides, with the sides' normals.
 Mesh box_cloud(const glm::vec3& size, float spacing, std::uint64_t seed);

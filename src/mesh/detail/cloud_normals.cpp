@@ -16,6 +16,7 @@ namespace rejoin::mesh::detail {
 namespace {
 
 constexpr std::size_t kAxes = 32;   // and their opposites
+constexpr float kAcross = 3.0F;     // what surface variation costs a walk, of what a turn by 90 degrees does
 constexpr float kOpposite = -0.5F;  // cosine of normals
 constexpr double kStray = 5e-4;     // share of neighbours with opposite normals that a cloud is let pass with
 constexpr double kAgreeing = 0.95;  // share of good normals that turning along the surface leaves, or turns
@@ -35,20 +36,23 @@ MutualLists mutual(const NeighbourLists& lists) {
 
 /// An undecided point, reached from a decided one.
 struct Step {
-  float turn;  ///< 1 - |cos| between the two normals
+  float cost;
   std::uint32_t from;
   std::uint32_t to;
   bool operator>(const Step& other) const {
-    if (turn != other.turn) return turn > other.turn;
+    if (cost != other.cost) return cost > other.cost;
     return to != other.to ? to > other.to : from > other.from;
   }
 };
 
-/// Turns normals to agree with each other within every part.
+/// Turns normals to agree with each other within every part, where the surface bends least first.  Where planes were fitted across a sharp
+/// edge, their normals are alike on both sides of it and still say nothing of which side is out: such places come last.
+/// \source Hoppe et al. 1992 (the tree of least turns)
 class Walker {
  public:
-  Walker(const MutualLists& neighbours, std::vector<glm::vec3>& normals)
-      : neighbours_(neighbours), normals_(normals), decided_(normals.size(), false) {}
+  /// \param variation  of the points' planes; empty: the normals are none of planes
+  Walker(const MutualLists& neighbours, std::vector<glm::vec3>& normals, const std::vector<float>& variation)
+      : neighbours_(neighbours), normals_(normals), variation_(variation), decided_(normals.size(), false) {}
 
   bool reached(std::uint32_t i) const { return decided_[i]; }
 
@@ -71,12 +75,18 @@ class Walker {
     decided_[i] = true;
     part.push_back(i);
     for (const std::uint32_t k : neighbours_[i]) {
-      if (!decided_[k]) steps_.push({1.0F - std::abs(glm::dot(normals_[i], normals_[k])), i, k});
+      if (!decided_[k]) steps_.push({cost(i, k), i, k});
     }
+  }
+
+  float cost(std::uint32_t i, std::uint32_t k) const {
+    const float turn = 1.0F - std::abs(glm::dot(normals_[i], normals_[k]));
+    return variation_.empty() ? turn : turn + kAcross * std::max(variation_[i], variation_[k]);
   }
 
   const MutualLists& neighbours_;
   std::vector<glm::vec3>& normals_;
+  const std::vector<float>& variation_;
   std::vector<bool> decided_;
   std::priority_queue<Step, std::vector<Step>, std::greater<>> steps_;
 };
@@ -105,9 +115,9 @@ bool points_inwards(const std::vector<std::uint32_t>& part, const std::vector<gl
 }
 
 void turn_outwards(const NeighbourLists& lists, const std::vector<glm::vec3>& points,
-                   std::vector<glm::vec3>& normals) {
+                   std::vector<glm::vec3>& normals, const std::vector<float>& variation) {
   const MutualLists neighbours = mutual(lists);
-  Walker walker(neighbours, normals);
+  Walker walker(neighbours, normals, variation);
   for (std::uint32_t seed = 0; seed < points.size(); ++seed) {
     if (walker.reached(seed)) continue;
     const std::vector<std::uint32_t> part = walker.walk(seed);
@@ -155,10 +165,15 @@ double swelling(const Mesh& cloud) {
 
 std::vector<glm::vec3> estimate_normals(const std::vector<glm::vec3>& points, const NeighbourLists& near) {
   std::vector<glm::vec3> normals(points.size());
+  std::vector<float> variation(points.size());
   parallel_for(points.size(), 512, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) normals[i] = plane_normal(points, near[i]);
+    for (std::size_t i = first; i < last; ++i) {
+      const PlaneFit plane = fit_plane(points, near[i]);
+      normals[i] = plane.normal;
+      variation[i] = plane.variation;
+    }
   });
-  turn_outwards(near, points, normals);
+  turn_outwards(near, points, normals, variation);
   return normals;
 }
 
@@ -166,7 +181,7 @@ NormalsFound check_normals(Mesh& cloud, CloudNeighbours& neighbours) {
   const NeighbourLists& near = neighbours.near();
   if (opposite_share(cloud.normals, near) > kStray) {
     Mesh turned = cloud;
-    turn_outwards(near, turned.vertices, turned.normals);
+    turn_outwards(near, turned.vertices, turned.normals, {});
     if (agreement(cloud.normals, turned.normals) < kAgreeing) {
       const Outlook before = outlook_of(cloud, neighbours);
       const Outlook after = outlook_of(turned, neighbours);

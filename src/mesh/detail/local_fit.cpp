@@ -6,7 +6,7 @@
 
 namespace rejoin::mesh::detail {
 
-glm::vec3 plane_normal(const std::vector<glm::vec3>& points, std::span<const std::uint32_t> chosen) {
+PlaneFit fit_plane(const std::vector<glm::vec3>& points, std::span<const std::uint32_t> chosen) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const std::uint32_t i : chosen) mean += Eigen::Vector3d(points[i].x, points[i].y, points[i].z);
   mean /= static_cast<double>(chosen.size());
@@ -17,7 +17,13 @@ glm::vec3 plane_normal(const std::vector<glm::vec3>& points, std::span<const std
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
   const Eigen::Vector3d least = solver.eigenvectors().col(0);
-  return glm::normalize(glm::vec3(least.x(), least.y(), least.z()));
+  const double sum = solver.eigenvalues().sum();
+  return {glm::normalize(glm::vec3(least.x(), least.y(), least.z())),
+          sum > 0.0 ? static_cast<float>(std::max(0.0, solver.eigenvalues()[0]) / sum) : 0.0F};
+}
+
+glm::vec3 plane_normal(const std::vector<glm::vec3>& points, std::span<const std::uint32_t> chosen) {
+  return fit_plane(points, chosen).normal;
 }
 
 double quadric_residual(std::span<const glm::dvec3> points) {

@@ -8,7 +8,15 @@
 
 namespace rejoin::mesh::detail {
 
-/// Unit direction of least spread of the chosen points, either way round.
+/// A plane through points in one place.
+struct PlaneFit {
+  glm::vec3 normal;  ///< unit direction of least spread, either way round
+  float variation =
+      0;  ///< share of the spread along it: 0 in a plane, 1/3 at most  \source Pauly, Gross and Kobbelt 2002 (surface variation)
+};
+PlaneFit fit_plane(const std::vector<glm::vec3>& points, std::span<const std::uint32_t> chosen);
+
+/// Its normal.
 glm::vec3 plane_normal(const std::vector<glm::vec3>& points, std::span<const std::uint32_t> chosen);
 
 /// Root mean square distance along z of points from the quadric over x and y that fits them best.  The six numbers that it has
