@@ -17,8 +17,9 @@ namespace {
 constexpr double kOfBreaks = 0.75;
 constexpr double kSmooth = 0.85;  // of the roughness of breaks: lips 0.36 to 0.81, the sharper, the rougher
 constexpr double kSlides = 0.4;   // of the angle of breaks between motion and surface: lips 0.08 to 0.39,
-constexpr double kMostOfEdge_deg = 2.5;   // and 0.5 to 2.4; breaks with less than 0.4 of others' have 4 and more
-constexpr double kMostOfWalls_deg = 5.6;  // walls with the marks of turning 2 to 4, of a tile with a rim 4 to 5.5
+constexpr double kMostOfEdge_deg = 2.5;  // and 0.5 to 2.4; breaks with less than 0.4 of others' 3 and more
+constexpr double kMostOfWalls_deg =
+    5.6;  // walls with the marks of turning 2 to 4, of a tile with a rim 4 to 5.5
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Motion = Eigen::Matrix<double, 6, 1>;  // turn, shift: velocity = shift + cross(turn, place)
