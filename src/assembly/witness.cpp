@@ -1,5 +1,6 @@
 #include "assembly/witness.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -15,7 +16,22 @@ constexpr double kTouchTrue =
 constexpr double kTouchFalse = 0.45;   // and in false ones
 constexpr double kMostPatches = 16.0;  // a contact is one surface, whose patches go together
 constexpr double kHeard = 1.0;         // log-odds that false poses next to never get from their neighbours
-constexpr double kSurprise = 2.0;      // what getting them adds
+constexpr std::size_t kPlanePoints = 200;  // of a contact
+constexpr double kSurprise = 2.0;          // what getting them adds
+
+/// Root mean square distance of points from the plane that fits them best.
+double off_plane(const std::vector<glm::dvec3>& points) {
+  const auto count = static_cast<double>(std::max<std::size_t>(1, points.size()));
+  glm::dvec3 centre(0.0);
+  for (const glm::dvec3& p : points) centre += p / count;
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const glm::dvec3& p : points) {
+    const Eigen::Vector3d d(p.x - centre.x, p.y - centre.y, p.z - centre.z);
+    spread += d * d.transpose() / count;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread, Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, solver.eigenvalues()[0]));
+}
 
 class Meeting {
  public:
@@ -39,7 +55,8 @@ class Meeting {
     for (std::size_t k = 0; k < others; ++k) {
       const auto [a, b, pose, known] = contacts[k];
       if (is_own(a, b)) continue;
-      const double odds = witness_odds(contact_evidence(pieces_[a], pieces_[b], relative(a, b)));
+      const match::Evidence evidence = contact_evidence(pieces_[a], pieces_[b], relative(a, b));
+      const double odds = witness_odds(evidence, in_plane_of_links(a, b));
       sum.all += odds;
       if (!is_linked(a, b, relative(a, b))) sum.unlinked += odds;
     }
@@ -56,6 +73,24 @@ class Meeting {
     return std::any_of(links_.begin(), links_.end(), [&](const Link& link) {
       return (link.a == a && link.b == b) || (link.a == b && link.b == a);
     });
+  }
+
+  /// Adds where two pieces face each other, in the common frame.
+  void add_contact(std::size_t a, std::size_t b, std::vector<glm::dvec3>& points) const {
+    const Piece& first = pieces_[a];
+    const Piece& second = pieces_[b];
+    const double tolerance = match::contact_tolerance(first.fragment(), second.fragment());
+    const double reach = std::hypot(std::max(first.spacing(), second.spacing()), tolerance);
+    for (const Facing& facing : facing_points(first, second, relative(a, b), reach, kPlanePoints))
+      points.push_back(poses_[a](facing.on_a));
+  }
+
+  /// Whether a contact lies in one plane with those of the links.
+  bool in_plane_of_links(std::size_t a, std::size_t b) const {
+    std::vector<glm::dvec3> points;
+    for (const Link& link : links_) add_contact(link.a, link.b, points);
+    add_contact(a, b, points);
+    return off_plane(points) < match::contact_tolerance(pieces_[a].fragment(), pieces_[b].fragment());
   }
 
   bool is_forbidden(std::size_t a, std::size_t b) const {
@@ -152,7 +187,7 @@ class Meeting {
 
 }  // namespace
 
-double witness_odds(const match::Evidence& evidence) {
+double witness_odds(const match::Evidence& evidence, bool in_plane) {
   const double over = evidence.shared_area + evidence.penetration_area;
   if (!(over > 0)) return 0.0;
   const double touching = evidence.contact_area / over;
@@ -160,7 +195,7 @@ double witness_odds(const match::Evidence& evidence) {
   const double contact = touching * std::log(kTouchTrue / kTouchFalse) +
                          (1.0 - touching) * std::log((1.0 - kTouchTrue) / (1.0 - kTouchFalse));
   const double shape = match::log_odds(match::strength(evidence)) - match::log_odds(0.0);
-  return patches * contact + std::max(0.0, shape);
+  return patches * (in_plane ? std::min(0.0, contact) : contact) + std::max(0.0, shape);
 }
 
 std::optional<double> witness_odds(const std::vector<Piece>& pieces, const std::vector<Link>& links,

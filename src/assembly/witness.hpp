@@ -12,7 +12,9 @@ namespace rejoin::assembly {
 
 /// Log-odds that a contact which was not searched for speaks for (or, below 0, against) the pose that made it: how much of the
 /// surfaces that lie over each other touches, and how much shape agrees.  \source docs/scoring.md
-double witness_odds(const match::Evidence& evidence);
+/// \param in_plane  the contact lies in one plane with that which made the pose, within a touching distance: flat surfaces of one plane
+///                  touch together, so that touching speaks for nothing there, and shape alone does
+double witness_odds(const match::Evidence& evidence, bool in_plane);
 
 /// Puts groups together as links between them say, one link fewer than groups, aligns them on all contacts between them, and
 /// adds up the log-odds that those of other pairs than the links' own give.

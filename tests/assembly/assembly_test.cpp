@@ -269,20 +269,38 @@ TEST(Witness, OtherContactsSpeakForTrueLinksOnly) {
 TEST(Witness, CloseContactSpeaksForAPoseAndLooseContactAgainst) {
   match::Evidence evidence;
   evidence.tolerance = 1.0;
-  EXPECT_EQ(witness_odds(evidence), 0.0) << "nothing touches";
+  EXPECT_EQ(witness_odds(evidence, false), 0.0) << "nothing touches";
   evidence.shared_area = 10.0;
   evidence.patch_area = 2.5;
   evidence.contact_area = 9.5;
-  const double close = witness_odds(evidence);
+  const double close = witness_odds(evidence, false);
   EXPECT_GT(close, 1.0) << "flat surfaces without any shape to agree on";
   evidence.contact_area = 4.0;
-  EXPECT_LT(witness_odds(evidence), -1.0);
+  EXPECT_LT(witness_odds(evidence, false), -1.0);
   evidence.contact_area = 9.5;
   evidence.information = 3.0;
-  EXPECT_GT(witness_odds(evidence), close + 1.0);
+  EXPECT_GT(witness_odds(evidence, false), close + 1.0);
+  EXPECT_GT(witness_odds(evidence, true), 1.0) << "shape counts in the plane of the link, too";
   evidence.information = 0.0;
+  EXPECT_EQ(witness_odds(evidence, true), 0.0);
   evidence.penetration_area = 10.0;
-  EXPECT_LT(witness_odds(evidence), 0.0) << "as much lies inside as touches";
+  EXPECT_LT(witness_odds(evidence, false), 0.0) << "as much lies inside as touches";
+}
+
+TEST(Witness, FlatContactsSpeakOutOfTheLinksPlaneAlone) {
+  const match::Fragment cube = match::prepare("cube", mesh::test::box({20, 20, 20}, 12), Context{});
+  std::vector<Piece> pieces;
+  std::vector<Rigid> poses;
+  for (const glm::dvec3& at : {glm::dvec3(-10, -10, 0), {10, -10, 0}, {-10, 10, 0}, {10, 10, 0}}) {
+    pieces.emplace_back(cube);
+    poses.push_back({glm::dmat3(1.0), at});
+  }
+  const Link link{0, 2, inverse(poses[0]) * poses[2], 0.5};
+  const auto heard = [&](const std::vector<std::vector<std::size_t>>& groups) {
+    return witness_odds(pieces, {link}, groups, poses, {}).value_or(0.0);
+  };
+  // 1 and 3 meet in the plane in which 0 and 2 do, 3 and 2 at a right angle to it: whole sides both.
+  EXPECT_GT(heard({{0, 3}, {2}}), heard({{0, 1}, {2, 3}}) + 5.0);
 }
 
 TEST(Assemble, TwoObjectsStayTwo) {
