@@ -52,11 +52,14 @@ class Meeting {
     if (!steady) return Heard{};
     if (forbidden_touch()) return std::nullopt;
     Heard sum;
+    const LinksPlane plane(*this);
     for (std::size_t k = 0; k < others; ++k) {
       const auto [a, b, pose, known] = contacts[k];
       if (is_own(a, b)) continue;
       const match::Evidence evidence = contact_evidence(pieces_[a], pieces_[b], relative(a, b));
-      const double odds = witness_odds(evidence, in_plane_of_links(a, b));
+      const double in_plane = witness_odds(evidence, true);
+      double odds = witness_odds(evidence, false);
+      if (odds > in_plane && plane.lies_in(*this, a, b)) odds = in_plane;
       sum.all += odds;
       if (!is_linked(a, b, relative(a, b))) sum.unlinked += odds;
     }
@@ -75,23 +78,43 @@ class Meeting {
     });
   }
 
-  /// Adds where two pieces face each other, in the common frame.
-  void add_contact(std::size_t a, std::size_t b, std::vector<glm::dvec3>& points) const {
+  /// Where two pieces face each other, in the common frame.
+  std::vector<glm::dvec3> contact_points(std::size_t a, std::size_t b) const {
     const Piece& first = pieces_[a];
     const Piece& second = pieces_[b];
-    const double tolerance = match::contact_tolerance(first.fragment(), second.fragment());
-    const double reach = std::hypot(std::max(first.spacing(), second.spacing()), tolerance);
+    const double reach = std::hypot(std::max(first.spacing(), second.spacing()), tolerance(a, b));
+    std::vector<glm::dvec3> points;
     for (const Facing& facing : facing_points(first, second, relative(a, b), reach, kPlanePoints))
       points.push_back(poses_[a](facing.on_a));
+    return points;
   }
 
-  /// Whether a contact lies in one plane with those of the links.
-  bool in_plane_of_links(std::size_t a, std::size_t b) const {
-    std::vector<glm::dvec3> points;
-    for (const Link& link : links_) add_contact(link.a, link.b, points);
-    add_contact(a, b, points);
-    return off_plane(points) < match::contact_tolerance(pieces_[a].fragment(), pieces_[b].fragment());
+  double tolerance(std::size_t a, std::size_t b) const {
+    return match::contact_tolerance(pieces_[a].fragment(), pieces_[b].fragment());
   }
+
+  /// The contacts of the links, once all is aligned.
+  class LinksPlane {
+   public:
+    explicit LinksPlane(const Meeting& meeting) {
+      for (const Link& link : meeting.links_) {
+        const std::vector<glm::dvec3> points = meeting.contact_points(link.a, link.b);
+        points_.insert(points_.end(), points.begin(), points.end());
+        tolerance_ = std::max(tolerance_, meeting.tolerance(link.a, link.b));
+      }
+    }
+
+    /// Whether another contact lies in one plane with them.
+    bool lies_in(const Meeting& meeting, std::size_t a, std::size_t b) const {
+      std::vector<glm::dvec3> points = meeting.contact_points(a, b);
+      points.insert(points.end(), points_.begin(), points_.end());
+      return off_plane(points) < std::max(tolerance_, meeting.tolerance(a, b));
+    }
+
+   private:
+    std::vector<glm::dvec3> points_;
+    double tolerance_ = 0.0;
+  };
 
   bool is_forbidden(std::size_t a, std::size_t b) const {
     return among(options_.constraints.must_not_join, a, b);

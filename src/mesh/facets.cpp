@@ -15,7 +15,6 @@
 #include "mesh/detail/local_fit.hpp"
 #include "mesh/detail/mean_normals.hpp"
 #include "mesh/detail/open_walls.hpp"
-#include "mesh/detail/original_edges.hpp"
 #include "mesh/neighbours.hpp"
 #include "mesh/point_index.hpp"
 #include "mesh/thickness.hpp"
@@ -364,16 +363,6 @@ std::size_t smallest_facet(const Segmentation& s) {
   return std::max(kFewest, std::min(s.samples.size() / kOfAll, fracture / kOfFracture));
 }
 
-void put_in_order(const Segmentation& s, Cut& cut) {
-  std::stable_sort(cut.facets.begin(), cut.facets.end(), [](const Facet& a, const Facet& b) {
-    return a.fracture != b.fracture ? a.fracture : a.area > b.area;
-  });
-  cut.facet_of_sample.assign(s.samples.size(), -1);
-  for (std::size_t f = 0; f < cut.facets.size(); ++f) {
-    for (const auto i : cut.facets[f].samples) cut.facet_of_sample[i] = static_cast<int>(f);
-  }
-}
-
 Cut cut_into(const Segmentation& s, std::vector<std::vector<std::uint32_t>> members) {
   Cut cut;
   for (auto& samples : members) {
@@ -383,7 +372,13 @@ Cut cut_into(const Segmentation& s, std::vector<std::vector<std::uint32_t>> memb
     measure(facet, s);
     cut.facets.push_back(std::move(facet));
   }
-  put_in_order(s, cut);
+  std::stable_sort(cut.facets.begin(), cut.facets.end(), [](const Facet& a, const Facet& b) {
+    return a.fracture != b.fracture ? a.fracture : a.area > b.area;
+  });
+  cut.facet_of_sample.assign(s.samples.size(), -1);
+  for (std::size_t f = 0; f < cut.facets.size(); ++f) {
+    for (const auto i : cut.facets[f].samples) cut.facet_of_sample[i] = static_cast<int>(f);
+  }
   return cut;
 }
 
@@ -410,7 +405,6 @@ Segmentation segment(const Mesh& mesh, double size) {
   const std::size_t smallest = detail::smallest_facet(s);
   static_cast<Cut&>(s) =
       detail::cut_into(s, detail::grow_facets(ground, strips ? kStripCone : detail::kCone, smallest));
-  if (thin) detail::tell_original_edges(s, s);
   if (!thin) s.creased = detail::cut_into(s, detail::facets_between_creases(ground, smallest));
   return s;
 }

@@ -20,7 +20,7 @@ struct Facet {
   double width = 0;                    ///< extent across it
   double area = 0;                     ///< squared mesh units
   double roughness = 0;                ///< mean of the samples' roughness
-  bool fracture = false;               ///< broken surface (may join), else original surface or edge
+  bool fracture = false;               ///< broken surface (may join), else original surface
 };
 
 /// Which surface a sample belongs to.
@@ -50,8 +50,7 @@ struct Segmentation : Cut {
 ///
 /// Thin-walled pieces: a point whose inward ray meets a parallel surface from behind at 0.5 to 1.8 wall
 /// thicknesses is original surface, and so are facets about as wide as what is behind them is thick, or wider (a foot); the rest is fracture; then
-/// points follow their surroundings.  Facets of such fracture that are smooth and slide along with the walls, lips and feet, are original
-/// edges; their samples stay fracture.  Where breaks hardly go through the walls, both are the faces of a flake, which is solid.  Solid pieces: every facet counts as fracture, as
+/// points follow their surroundings.  Where breaks hardly go through the walls, both are the faces of a flake, which is solid.  Solid pieces: every facet counts as fracture, as
 /// roughness does not tell a break from a carved or weathered surface.  Facets grow over smoothed normals from
 /// the flattest places, until they have bent by an angle; of solid pieces they are cut along the creases, too, as a break that
 /// one of the cuts parts is often whole in the other. \pre the mesh has faces \source papaioannou 2002,

@@ -12,9 +12,6 @@ namespace rejoin::mesh::detail {
 /// Fewest samples of a facet.
 std::size_t smallest_facet(const Segmentation& segmentation);
 
-/// Numbers facets: fracture first, largest first in each class.
-void put_in_order(const Segmentation& segmentation, Cut& cut);
-
 /// Measures the facets and numbers them: fracture first, largest first in each class.
 /// \param members  samples of each facet, none empty; a facet's class is that of its first
 Cut cut_into(const Segmentation& segmentation, std::vector<std::vector<std::uint32_t>> members);

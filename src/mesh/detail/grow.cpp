@@ -5,13 +5,16 @@
 #include <numeric>
 #include <queue>
 
+#include "core/angle.hpp"
+
 namespace rejoin::mesh::detail {
 namespace {
 
-constexpr float kDegree = 0.017453292F;
-constexpr float kStep = 30.0F * kDegree;     // neighbours across a group differ by less than this
-constexpr float kFitting = 70.0F * kDegree;  // what a group absorbs differs from its mean by less than this
-constexpr double kReach = 1.8;               // spacings between adjacent samples, at most
+constexpr float kFloatDegree = static_cast<float>(kDegree);
+constexpr float kStep = 30.0F * kFloatDegree;  // neighbours across a group differ by less than this
+constexpr float kFitting =
+    70.0F * kFloatDegree;       // what a group absorbs differs from its mean by less than this
+constexpr double kReach = 1.8;  // spacings between adjacent samples, at most
 
 void grow_from(std::uint32_t seed, const Ground& ground, float cone, Groups& groups) {
   const float step = std::cos(kStep);
@@ -69,7 +72,7 @@ std::vector<bool> Groups::at_least(std::size_t size) const {
 
 Groups grow(const Ground& ground, float cone_deg) {
   Groups groups{std::vector<int>(ground.points.size(), -1), {}};
-  const float cone = std::cos(cone_deg * kDegree);
+  const float cone = std::cos(cone_deg * kFloatDegree);
   for (const auto seed : seeds_by_flatness(ground)) {
     if (groups.of_sample[seed] < 0) grow_from(seed, ground, cone, groups);
   }
