@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/angle.hpp"
 #include "core/parallel.hpp"
 #include "core/random.hpp"
 #include "mesh/surface.hpp"
@@ -137,7 +138,7 @@ double smooth_maximum(double a, double b) {
 /// A chip, one of whose edges is sharp (25 degrees) and all others are rounded.  Planes through neighbours of the sharp edge lie between its
 /// sides, so that normals turn little from one to the other there: the way around the other edges is the right one.
 TEST(EstimateNormals, BothSidesOfASharpEdgePointOutwards) {
-  const double slope = std::tan(25.0 * std::numbers::pi / 180.0);
+  const double slope = std::tan(25.0 * kDegree);
   const shatter::Grid grid{.centre = {20, 0, 8}, .size = 64, .spacing = 0.4};
   const Mesh chip = shatter::surface_nets(
       [&](const glm::dvec3& p) {

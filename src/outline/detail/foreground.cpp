@@ -34,11 +34,11 @@ constexpr float kSameHue = 0.12F;
 constexpr float kWeak = 0.5F;
 /// and changes by less than this from pixel to pixel.
 constexpr float kSoft = 0.075F;
-/// A pixel of the frame is background if it is this much nearer to it than one of the next few inwards; print narrower than kFringe
+/// A pixel of the frame is background if it is this much nearer to it than one of the next few inwards; print narrower than kPrintStroke
 /// pixels is none.
 constexpr float kOutside = 0.4F;
 constexpr int kInwards = 4;
-constexpr int kFringe = 9;
+constexpr int kPrintStroke = 9;
 
 // Paper before a lighter background darkens it, too.  It is told from shadows by its hue: where it is even (as between print; it changes by
 // less from pixel to pixel), at least this light, and this far off the background's hue, one hue has this share of all that shadows may
@@ -186,7 +186,8 @@ cv::Mat pieces_in_row(const cv::Mat& strip) {
   cv::Mat most;
   cv::reduce(strip.rowRange(1, strip.rows), most, 0, cv::REDUCE_MAX);
   cv::Mat piece = strip.row(0) >= kOutside * most;
-  cv::morphologyEx(piece, piece, cv::MORPH_CLOSE, cv::getStructuringElement(cv::MORPH_RECT, {kFringe, 1}));
+  cv::morphologyEx(piece, piece, cv::MORPH_CLOSE,
+                   cv::getStructuringElement(cv::MORPH_RECT, {kPrintStroke, 1}));
   return piece;
 }
 

@@ -9,14 +9,14 @@ namespace rejoin::outline::detail {
 namespace {
 
 /// A cell's score above, and the cell where its alignment began below, so that one comparison carries both.
-using Score = std::int64_t;
+using Packed = std::int64_t;
 constexpr int kScoreShift = 32;
 constexpr int kRowShift = 16;
 
-Score fresh(std::size_t i, std::size_t j) {
-  return static_cast<Score>(i << kRowShift | j);
+Packed fresh(std::size_t i, std::size_t j) {
+  return static_cast<Packed>(i << kRowShift | j);
 }
-int score_of(Score cell) {
+int score_of(Packed cell) {
   return static_cast<int>(cell >> kScoreShift);
 }
 
@@ -29,7 +29,7 @@ std::vector<std::uint8_t> extended(std::span<const std::uint8_t> values) {
 }
 
 struct End {
-  Score cell = 0;
+  Packed cell = 0;
   std::uint32_t row = 0;
   std::uint32_t column = 0;
 };
@@ -42,7 +42,7 @@ class Aligner {
         size_b_(b.size()),
         model_(model),
         options_(options),
-        gap_(static_cast<Score>(options.skip) << kScoreShift),
+        gap_(static_cast<Packed>(options.skip) << kScoreShift),
         a_(extended(a)),
         b_(extended(b)) {}
 
@@ -54,21 +54,21 @@ class Aligner {
   }
 
  private:
-  static Score cell_of(int score) { return static_cast<Score>(score) * (Score{1} << kScoreShift); }
+  static Packed cell_of(int score) { return static_cast<Packed>(score) * (Packed{1} << kScoreShift); }
 
   /// The best end in every row and in every column.
   void fill() {
-    std::vector<Score> row(b_.size() + 1);
+    std::vector<Packed> row(b_.size() + 1);
     std::vector<End> columns(b_.size());
     ends_.reserve(a_.size() + b_.size());
     for (std::size_t j = 0; j <= b_.size(); ++j) row[j] = fresh(0, j);
     for (std::size_t i = 0; i < a_.size(); ++i) {
-      Score diagonal = row[0];
+      Packed diagonal = row[0];
       row[0] = fresh(i + 1, 0);
       End best{0, static_cast<std::uint32_t>(i), 0};
       const std::int16_t* scores = model_.row(a_[i]);
       for (std::size_t j = 0; j < b_.size(); ++j) {
-        Score cell = std::max(diagonal + cell_of(scores[b_[j]]), std::max(row[j], row[j + 1]) - gap_);
+        Packed cell = std::max(diagonal + cell_of(scores[b_[j]]), std::max(row[j], row[j + 1]) - gap_);
         if (score_of(cell) <= 0) cell = fresh(i + 1, j + 1);
         diagonal = row[j + 1];
         row[j + 1] = cell;
@@ -119,15 +119,16 @@ class Aligner {
     const std::size_t columns = end.column + 1 - first_column;
     enum : std::uint8_t { kMatch, kSkipA, kSkipB };
     std::vector<std::uint8_t> steps((rows + 1) * (columns + 1), kMatch);
-    std::vector<Score> row(columns + 1);
-    for (std::size_t j = 0; j <= columns; ++j) row[j] = -gap_ * static_cast<Score>(j);
+    std::vector<Packed> row(columns + 1);
+    for (std::size_t j = 0; j <= columns; ++j) row[j] = -gap_ * static_cast<Packed>(j);
     for (std::size_t i = 1; i <= rows; ++i) {
-      Score diagonal = row[0];
-      row[0] = -gap_ * static_cast<Score>(i);
+      Packed diagonal = row[0];
+      row[0] = -gap_ * static_cast<Packed>(i);
       for (std::size_t j = 1; j <= columns; ++j) {
-        const Score match = diagonal + cell_of(model_.score(a_[first_row + i - 1], b_[first_column + j - 1]));
-        const Score skip_a = row[j] - gap_;
-        const Score skip_b = row[j - 1] - gap_;
+        const Packed match =
+            diagonal + cell_of(model_.score(a_[first_row + i - 1], b_[first_column + j - 1]));
+        const Packed skip_a = row[j] - gap_;
+        const Packed skip_b = row[j - 1] - gap_;
         diagonal = row[j];
         row[j] = std::max(match, std::max(skip_a, skip_b));
         steps[i * (columns + 1) + j] = row[j] == match ? kMatch : row[j] == skip_a ? kSkipA : kSkipB;
@@ -150,7 +151,7 @@ class Aligner {
   std::size_t size_b_;
   const TurnModel& model_;
   LocalOptions options_;
-  Score gap_;
+  Packed gap_;
   std::vector<std::uint8_t> a_;
   std::vector<std::uint8_t> b_;
   std::vector<End> ends_;
