@@ -93,9 +93,18 @@ class Completer {
   }
 
   std::optional<Link> judged(const Link& guess) const {
+    const match::Fragment& a = pieces_[guess.a].fragment();
+    const match::Fragment& b = pieces_[guess.b].fragment();
+    const match::Joint fresh(a, b);
+    std::optional<Link> link = judged(guess, fresh);
+    if (!link && match::tell_wear(a, b)) link = judged(guess, fresh.worn());
+    return link;
+  }
+
+ private:
+  std::optional<Link> judged(const Link& guess, const match::Joint& joint) const {
     const Piece& a = pieces_[guess.a];
     const Piece& b = pieces_[guess.b];
-    const match::Joint joint(a.fragment(), b.fragment());
     const double tolerance = joint.tolerance();
     const Rigid rough = joint.align(match::to_origins(a.fragment(), b.fragment(), guess.pose),
                                     {24.0 * tolerance, 4.0 * tolerance, 16, 300});
@@ -110,7 +119,6 @@ class Completer {
     return link;
   }
 
- private:
   bool is_known(const Link& link) const {
     const auto same = [&](const Key& key, const Rigid& pose) {
       const auto found = known_.find(key);

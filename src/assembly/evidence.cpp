@@ -13,6 +13,13 @@ namespace {
 
 constexpr double kMostOdds = 12.0;
 
+match::Evidence judged(const match::Joint& joint, const Rigid& at) {
+  const match::Evidence evidence = match::weigh(joint.agreed_evidence(at), joint, at);
+  if (match::strength(evidence) <= match::kEven) return evidence;
+  const auto stability = match::probe(joint, at, evidence);
+  return stability && match::slides(*stability) ? match::at_most_even(evidence) : evidence;
+}
+
 }  // namespace
 
 double log_odds(double score) {
@@ -22,12 +29,12 @@ double log_odds(double score) {
 }
 
 match::Evidence contact_evidence(const Piece& a, const Piece& b, const Rigid& b_to_a) {
-  const match::Joint joint(a.fragment(), b.fragment());
+  const match::Joint fresh(a.fragment(), b.fragment());
   const Rigid at = match::to_origins(a.fragment(), b.fragment(), b_to_a);
-  const match::Evidence evidence = match::weigh(joint.agreed_evidence(at), joint, at);
-  if (match::strength(evidence) <= match::kEven) return evidence;
-  const auto stability = match::probe(joint, at, evidence);
-  return stability && match::slides(*stability) ? match::at_most_even(evidence) : evidence;
+  const match::Evidence evidence = judged(fresh, at);
+  if (!match::tell_wear(a.fragment(), b.fragment())) return evidence;
+  const match::Evidence worn = judged(fresh.worn(), at);
+  return match::rank(worn) > match::rank(evidence) ? worn : evidence;
 }
 
 bool same_pose(const Piece& a, const Piece& b, const Rigid& first, const Rigid& second,

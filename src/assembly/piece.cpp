@@ -172,7 +172,7 @@ std::vector<Facing> facing_points(const Piece& a, const Piece& b, const Rigid& b
 }
 
 Touch touch(const Piece& a, const Piece& b, const Rigid& b_to_a) {
-  const double tolerance = match::contact_tolerance(a.fragment(), b.fragment());
+  const double tolerance = match::contact_tolerance(a.fragment(), b.fragment(), match::Breaks::Worn);
   const double aside = std::max(a.spacing(), b.spacing());
   double area = 0.0;
   double touching = 0.0;

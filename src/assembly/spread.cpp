@@ -78,7 +78,7 @@ class Rounds {
     const Piece& a = pieces_[contact.a];
     const Piece& b = pieces_[contact.b];
     const double reach =
-        match::contact_tolerance(a.fragment(), b.fragment()) *
+        match::contact_tolerance(a.fragment(), b.fragment(), match::Breaks::Worn) *
         (contact.known == Known::Met ? kReachMet : kReachStart * std::pow(kReachEnd / kReachStart, share));
     const Rigid b_to_a = inverse(poses[contact.a]) * poses[contact.b];
     Block result;

@@ -90,7 +90,7 @@ class Meeting {
   }
 
   double tolerance(std::size_t a, std::size_t b) const {
-    return match::contact_tolerance(pieces_[a].fragment(), pieces_[b].fragment());
+    return match::contact_tolerance(pieces_[a].fragment(), pieces_[b].fragment(), match::Breaks::Worn);
   }
 
   /// The contacts of the links, once all is aligned.

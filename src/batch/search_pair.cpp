@@ -40,6 +40,7 @@ Searched searched(const match::Result& result) {
   found.pair.result = text_of({{"evaluations", result.evaluations},
                                {"backend", zbuffer::name_of(result.backend)},
                                {"renderer", result.renderer},
+                               {"breaks", name_of(result.breaks)},
                                {"warnings", result.warnings}});
   found.candidates.reserve(result.candidates.size());
   for (const match::Candidate& candidate : result.candidates)

@@ -98,6 +98,7 @@ std::string match_json(const match::Fragment& a, const match::Fragment& b, const
       {"pose", found ? candidates[0]["pose"] : ordered_json()},
       {"score", found ? result.candidates[0].score : 0.0},
       {"verdict", name_of(result.verdict)},
+      {"breaks", name_of(result.breaks)},
       {"against", result.against.empty() ? ordered_json() : ordered_json(result.against)},
       {"error", error_json(found ? result.candidates[0].error : match::JointError())},
       {"stability", result.stability ? stability_json(*result.stability) : ordered_json()},

@@ -150,7 +150,17 @@ Sampled sampled(const detail::JointSides& s, const Rigid& pose, int facet, const
 }  // namespace
 
 Joint::Joint(const Fragment& a, const Fragment& b)
-    : sides_(std::make_unique<const detail::JointSides>(a, b)), exchanged_(sides_->exchanged()) {}
+    : Joint(std::make_unique<const detail::JointSides>(a, b)) {}
+
+Joint::Joint(std::unique_ptr<const detail::JointSides> sides)
+    : sides_(std::move(sides)), exchanged_(sides_->exchanged()) {}
+
+Joint::Joint(Joint&&) noexcept = default;
+Joint& Joint::operator=(Joint&&) noexcept = default;
+
+Joint Joint::worn() const {
+  return Joint(sides_->worn());
+}
 
 Joint::~Joint() = default;
 

@@ -38,7 +38,14 @@ struct LookOptions {
 /// Const members may be called from several threads.
 class Joint {
  public:
+  /// To be judged by the distances of fresh breaks.
   Joint(const Fragment& a, const Fragment& b);
+
+  /// The same, to be judged by those of worn ones.
+  Joint worn() const;
+
+  Joint(Joint&&) noexcept;
+  Joint& operator=(Joint&&) noexcept;
   ~Joint();
 
   /// Robust point-to-plane alignment of the facing broken surfaces; for thin pieces the walls across the seam
@@ -67,13 +74,15 @@ class Joint {
   /// The geometric means of both ways, as in agreed_evidence().
   Scales scales(const Rigid& pose) const;
 
-  /// contact_tolerance() of the two.
+  /// contact_tolerance() of the two, as they are judged.
   double tolerance() const;
 
   /// Of the thinner wall, mesh units; 0 if not both pieces are thin.
   double thickness() const;
 
  private:
+  explicit Joint(std::unique_ptr<const detail::JointSides> sides);
+
   std::unique_ptr<const detail::JointSides> sides_;
   std::unique_ptr<const detail::JointSides> exchanged_;
 };

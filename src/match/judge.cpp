@@ -7,9 +7,14 @@
 namespace rejoin::match {
 
 Candidate judge(const Fragment& a, const Fragment& b, const Rigid& pose) {
-  const Joint joint(a, b);
+  const Joint fresh(a, b);
   const Rigid at = to_origins(a, b, pose);
-  const Evidence evidence = weigh(joint.agreed_evidence(at), joint, at);
+  Evidence evidence = weigh(fresh.agreed_evidence(at), fresh, at);
+  if (tell_wear(a, b)) {
+    const Joint joint = fresh.worn();
+    const Evidence worn = weigh(joint.agreed_evidence(at), joint, at);
+    if (strength(worn) > strength(evidence)) evidence = worn;
+  }
   return unmeasured(a, b, at, evidence, strength(evidence));
 }
 

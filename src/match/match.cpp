@@ -217,6 +217,54 @@ double strongest(std::span<const Hypothesis> hypotheses) {
   return most;
 }
 
+/// What the poses of a pair come to.
+struct Judged {
+  std::vector<Hypothesis> hypotheses;  ///< as many as are asked for
+  std::optional<Stability> stability;  ///< of the first
+  std::vector<std::string> warnings;
+  Breaks breaks = Breaks::Fresh;
+
+  double strength() const { return hypotheses.empty() ? 0.0 : hypotheses.front().strength; }
+  bool is_sure() const { return verdict_of(score_of(strength()), stability) == Verdict::Join; }
+};
+
+/// Whether breaks fit at a pose, but for other reasons than that they would join: they slide there, fit elsewhere too, or are alike.
+bool are_doubted(const Judged& fresh, const Rigid& pose, const Fragment& a, const Fragment& b) {
+  const auto same = [&](const Hypothesis& h) {
+    return same_pose(h.pose, pose, mesh::centroid(b.surface), std::min(a.diameter, b.diameter));
+  };
+  const auto alike = [](const Hypothesis& h) { return drifts(h.evidence) && score_of(h.as_rival) >= kSure; };
+  if (fresh.hypotheses.empty()) return false;
+  if (score_of(fresh.strength()) >= kSure && same(fresh.hypotheses.front())) return true;
+  return std::ranges::any_of(fresh.hypotheses, [&](const Hypothesis& h) { return alike(h) && same(h); });
+}
+
+/// \param hypotheses  after kGlance rounds
+Judged judged(std::vector<Hypothesis> hypotheses, const Joint& joint, const Fragment& a, const Fragment& b,
+              const std::optional<Near>& near, const Options& options, const Context& context) {
+  Judged result;
+  const auto rounds = passes(joint.tolerance(), options.max_candidates);
+  if (!context.cancelled()) align(hypotheses, joint, a, b, near, std::span(rounds).subspan(kGlance), context);
+  if (near && !context.cancelled()) keep_laid(hypotheses, joint, a, b, *near, rounds, options, context);
+  if (!context.cancelled()) tighten(hypotheses, joint, b, std::min(a.diameter, b.diameter));
+  weigh(hypotheses, joint);
+  if (!context.cancelled()) settle(hypotheses, joint, b, std::min(a.diameter, b.diameter));
+  if (near) keep_near(hypotheses, *near);
+  if (axes_restrict(options)) keep_axes(hypotheses, options, result.warnings);
+  const double next = strongest_rival(hypotheses);
+  hypotheses.resize(std::min(hypotheses.size(), static_cast<std::size_t>(options.max_candidates)));
+  if (!hypotheses.empty() && !context.cancelled()) {
+    const Hypothesis& best = hypotheses.front();
+    result.stability = probe(joint, best.pose, best.evidence);
+    if (result.stability) {
+      result.stability->margin = log_odds(best.strength) - log_odds(next);
+      if (best.strength > 0.0) result.stability->next_share = next / best.strength;
+    }
+  }
+  result.hypotheses = std::move(hypotheses);
+  return result;
+}
+
 /// Ends with the best pose so far, if there is one.
 void give_up(const Fragment& a, const Fragment& b, const std::vector<Hypothesis>& hypotheses,
              const Context& context, Result& result) {
@@ -231,6 +279,10 @@ void give_up(const Fragment& a, const Fragment& b, const std::vector<Hypothesis>
 }
 
 }  // namespace
+
+const char* name_of(Breaks breaks) {
+  return breaks == Breaks::Worn ? "worn" : "fresh";
+}
 
 const char* name_of(Verdict verdict) {
   switch (verdict) {
@@ -250,7 +302,9 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
   Verifier verifier(a, b, options);
   result.backend = verifier.backend();
   result.renderer = verifier.renderer();
-  const Joint joint(a, b);
+  const Joint fresh(a, b);
+  std::optional<Joint> worn;
+  if (tell_wear(a, b)) worn = fresh.worn();
   clock.lap("prepare");
 
   context.report("search", 0.0);
@@ -267,46 +321,41 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
   clock.lap("search");
 
   context.report("align", 0.5);
-  const auto rounds = passes(joint.tolerance(), options.max_candidates);
-  align(hypotheses, joint, a, b, near, std::span(rounds).first(kGlance), context);
+  const Joint& wider = worn ? *worn : fresh;
+  const auto rounds = passes(wider.tolerance(), options.max_candidates);
+  align(hypotheses, wider, a, b, near, std::span(rounds).first(kGlance), context);
   result.promise = strongest(hypotheses);
   if (options.promising_only && result.promise < (both_thin(a, b) ? kWorthwhileThin : kWorthwhile)) {
     clock.lap("align");
     give_up(a, b, hypotheses, context, result);
     return result;
   }
-  if (!context.cancelled()) align(hypotheses, joint, a, b, near, std::span(rounds).subspan(kGlance), context);
-  if (near && !context.cancelled()) keep_laid(hypotheses, joint, a, b, *near, rounds, options, context);
-  if (!context.cancelled()) tighten(hypotheses, joint, b, std::min(a.diameter, b.diameter));
-  weigh(hypotheses, joint);
-  if (!context.cancelled()) settle(hypotheses, joint, b, std::min(a.diameter, b.diameter));
-  if (near) keep_near(hypotheses, *near);
-  if (axes_restrict(options)) keep_axes(hypotheses, options, result.warnings);
-  const double next = strongest_rival(hypotheses);
-  hypotheses.resize(std::min(hypotheses.size(), static_cast<std::size_t>(options.max_candidates)));
+  Judged best = judged(hypotheses, fresh, a, b, near, options, context);
+  if (worn && !best.is_sure() && !context.cancelled()) {
+    Judged as_worn = judged(std::move(hypotheses), *worn, a, b, near, options, context);
+    as_worn.breaks = Breaks::Worn;
+    const bool better = as_worn.is_sure() || as_worn.strength() > best.strength();
+    if (better && !are_doubted(best, as_worn.hypotheses.front().pose, a, b)) best = std::move(as_worn);
+  }
+  result.stability = best.stability;
+  result.breaks = best.breaks;
+  result.warnings.insert(result.warnings.end(), best.warnings.begin(), best.warnings.end());
   clock.lap("align");
 
   context.report("verify", 0.8);
-  for (const auto& hypothesis : hypotheses) {
+  for (const auto& hypothesis : best.hypotheses) {
     Candidate candidate = verifier.candidate(hypothesis.pose, hypothesis.evidence, hypothesis.strength);
     candidate.facet_a = seen_facet(a, hypothesis.facet_a);
     candidate.facet_b = seen_facet(b, hypothesis.facet_b);
     result.candidates.push_back(candidate);
   }
-  if (!hypotheses.empty() && !context.cancelled()) {
-    const Hypothesis& best = hypotheses.front();
-    result.stability = probe(joint, best.pose, best.evidence);
-    if (result.stability) {
-      result.stability->margin = log_odds(best.strength) - log_odds(next);
-      if (best.strength > 0.0) result.stability->next_share = next / best.strength;
-    }
-  }
   clock.lap("verify");
   result.cancelled = context.cancelled();
   if (!result.candidates.empty()) {
     result.verdict = verdict_of(result.candidates.front().score, result.stability);
-    result.against = against(hypotheses.front().evidence, result.candidates.front().score, result.stability);
-    if (result.verdict != Verdict::NoJoin && may_be_walls(hypotheses.front().evidence))
+    result.against =
+        against(best.hypotheses.front().evidence, result.candidates.front().score, result.stability);
+    if (result.verdict != Verdict::NoJoin && may_be_walls(best.hypotheses.front().evidence))
       result.warnings.emplace_back(kWalls);
   }
   context.report("done", 1.0);

@@ -96,9 +96,21 @@ inline double joint_ruler(const Fragment& a, const Fragment& b) {
 /// would, down to a thirtieth of the slimmer piece's least extent or the scans' resolution.
 double samples_spacing(const Fragment& a, const Fragment& b);
 
+/// By which distances the joint of two pieces is judged.
+enum class Breaks {
+  Fresh,  ///< by those that the scans can tell
+  Worn,   ///< by those that solid pieces wear by, where scans are finer
+};
+
+const char* name_of(Breaks breaks);
+
 /// Distance below which surfaces touch, mesh units: a twentieth of joint_ruler() (of solid pieces a share of the samples'
-/// spacing), or what the scans' resolution and noise can tell.
-double contact_tolerance(const Fragment& a, const Fragment& b);
+/// spacing), or what the scans' resolution and noise can tell.  Of solid pieces with worn breaks a share of the smaller one's size, where that
+/// is more.  \source docs/scoring.md
+double contact_tolerance(const Fragment& a, const Fragment& b, Breaks breaks);
+
+/// Whether scans are so fine that worn breaks are to be judged by larger distances than fresh ones.
+bool tell_wear(const Fragment& a, const Fragment& b);
 
 /// The triangles that are matched: the scan's own, or laid through the points of a cloud.
 /// \param path  for messages
@@ -168,7 +180,8 @@ struct Result {
   std::optional<Stability> stability;  ///< of the best candidate; nullopt if it was not probed
   /// Else the pair was not promising: the best pose is the only candidate, and its depth-map errors are not measured.
   bool in_full = true;
-  double promise = 0;  ///< strength() of the best pose after the first alignments
+  Breaks breaks = Breaks::Fresh;  ///< by which the candidates were judged
+  double promise = 0;             ///< strength() of the best pose after the first alignments
   long evaluations = 0;
   bool cancelled = false;                          ///< stopped before the end; what was found is here
   std::vector<StageTime> stages;                   ///< prepare (of the pair), search, align, verify

@@ -49,7 +49,7 @@ bool may_touch(const Fragment& a, const Fragment& b, const Rigid& in_files) {
   const glm::vec3 apart = glm::max(glm::max(box_a.low - box_b.high, box_b.low - box_a.high), glm::vec3(0.0F));
   const double bridged = Near::kShift * std::min(a.diameter, b.diameter) +
                          farthest_turned(b.surface, mesh::centroid(b.surface)) +
-                         kOver * contact_tolerance(a, b);
+                         kOver * contact_tolerance(a, b, Breaks::Worn);
   return static_cast<double>(glm::length(apart)) <= bridged;
 }
 

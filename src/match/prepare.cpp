@@ -142,12 +142,19 @@ double samples_spacing(const Fragment& a, const Fragment& b) {
   return std::clamp(std::min(kUnlike * fine, std::max(slim, scan)), coarse / kDenser, coarse);
 }
 
-double contact_tolerance(const Fragment& a, const Fragment& b) {
+double contact_tolerance(const Fragment& a, const Fragment& b, Breaks breaks) {
   constexpr double kNoiseInGaps = 3.0;  // deviations of gaps by what is left of noise that still touch
+  constexpr double kWorn = 0.0075;      // of the smaller solid piece's size
   const double ruler = joint_ruler(a, b);
-  return std::max({ruler > 0 ? 0.05 * ruler : 0.15 * samples_spacing(a, b),
-                   0.3 * std::max(a.resolution, b.resolution),
+  const double solid = std::max(0.15 * samples_spacing(a, b),
+                                breaks == Breaks::Worn ? kWorn * std::min(a.diameter, b.diameter) : 0.0);
+  return std::max({ruler > 0 ? 0.05 * ruler : solid, 0.3 * std::max(a.resolution, b.resolution),
                    kNoiseInGaps * std::hypot(a.noise_left, b.noise_left)});
+}
+
+bool tell_wear(const Fragment& a, const Fragment& b) {
+  constexpr double kMore = 1.25;  // at least, else both ways say the same
+  return contact_tolerance(a, b, Breaks::Worn) > kMore * contact_tolerance(a, b, Breaks::Fresh);
 }
 
 mesh::Mesh surface_of(const std::string& path, mesh::Mesh scan) {

@@ -127,11 +127,31 @@ TEST(Joint, TouchesWithinATwentiethOfTheWallOrOfATenthOfASmallSherd) {
   a.facets.wall_thickness = 4.0;
   Fragment b = a;
   b.diameter = 80.0;
-  EXPECT_DOUBLE_EQ(contact_tolerance(a, b), 0.05 * 4.0);
+  EXPECT_DOUBLE_EQ(contact_tolerance(a, b, Breaks::Fresh), 0.05 * 4.0);
   a.facets.wall_thickness = b.facets.wall_thickness = 12.0;
-  EXPECT_DOUBLE_EQ(contact_tolerance(a, b), 0.05 * 0.1 * 50.0);
+  EXPECT_DOUBLE_EQ(contact_tolerance(a, b, Breaks::Fresh), 0.05 * 0.1 * 50.0);
   b.facets.wall_thickness = 0.0;
-  EXPECT_DOUBLE_EQ(contact_tolerance(a, b), 0.15 * 0.5) << "a sherd and a solid piece";
+  EXPECT_DOUBLE_EQ(contact_tolerance(a, b, Breaks::Fresh), 0.15 * 0.5) << "a sherd and a solid piece";
+}
+
+TEST(Joint, WornBreaksOfSolidPiecesTouchWithinAShareOfTheSmallerOne) {
+  Fragment a;
+  a.diameter = 50.0;
+  a.least_extent = 20.0;
+  a.resolution = 0.1;
+  a.facets.samples.spacing = 0.5;
+  Fragment b = a;
+  b.diameter = 80.0;
+  EXPECT_DOUBLE_EQ(contact_tolerance(a, b, Breaks::Fresh), 0.15 * 0.5);
+  EXPECT_DOUBLE_EQ(contact_tolerance(a, b, Breaks::Worn), 0.0075 * 50.0);
+  EXPECT_TRUE(tell_wear(a, b));
+  a.resolution = 1.3;  // a coarse scan can tell no less
+  EXPECT_DOUBLE_EQ(contact_tolerance(a, b, Breaks::Worn), 0.3 * 1.3);
+  EXPECT_FALSE(tell_wear(a, b));
+  a.resolution = 0.1;
+  a.facets.wall_thickness = b.facets.wall_thickness = 4.0;
+  EXPECT_DOUBLE_EQ(contact_tolerance(a, b, Breaks::Worn), contact_tolerance(a, b, Breaks::Fresh));
+  EXPECT_FALSE(tell_wear(a, b));
 }
 
 TEST(Joint, AlignmentBringsADisturbedPoseBack) {

@@ -12,6 +12,7 @@ constexpr double kWallClear = 0.25;  // wall thicknesses next to the seam that a
 constexpr double kOpen = 0.05;  // of the surface has nothing behind it, of a scan whose walls may be missing
 constexpr double kCannotTell = 0.2;     // tolerances: gap spread of joints as good as any
 constexpr double kExplained = 5.0;      // deviations of both surfaces that sides of a break may lie apart by
+constexpr double kWornPatch = 10.0;     // tolerances: side of a patch of worn surface, as of sherds
 constexpr double kTableCell = 2.0;      // spacings: side of the cells of tables of near points
 constexpr double kTableReach = 20.0;    // tolerances: how far a quick alignment looks
 constexpr double kEnough = 1.0 / 3.0;   // of the samples asked for, at least, where the other piece is
@@ -74,7 +75,8 @@ JointLengths lengths_of(const Fragment& a, const Fragment& b) {
   JointLengths l;
   l.thickness = thinner_wall(a, b);
   l.spacing = samples_spacing(a, b);
-  l.tolerance = contact_tolerance(a, b);
+  l.tolerance = contact_tolerance(a, b, Breaks::Fresh);
+  l.worn_tolerance = contact_tolerance(a, b, Breaks::Worn);
   l.noise = 0.05 * scan;
   l.explained = std::max(kCannotTell * l.tolerance, kExplained * std::hypot(a.waviness, b.waviness));
   l.patch = std::max({0.5 * joint_ruler(a, b), 2.5 * l.spacing, 2.5 * scan});
@@ -125,6 +127,14 @@ Chosen chosen_in(const mesh::Box& box, double reach, const std::vector<glm::vec3
 JointSides::JointSides(const Fragment& a, const Fragment& b) : lengths_(lengths_of(a, b)) {
   a_ = side_of(a, lengths_);
   b_ = side_of(b, lengths_);
+}
+
+std::unique_ptr<const JointSides> JointSides::worn() const {
+  JointLengths lengths = lengths_;
+  lengths.tolerance = lengths_.worn_tolerance;
+  lengths.explained = std::max(lengths_.explained, kCannotTell * lengths.tolerance);
+  lengths.patch = std::max(lengths_.patch, kWornPatch * lengths.tolerance);
+  return std::unique_ptr<const JointSides>(new JointSides(a_, b_, lengths));
 }
 
 std::unique_ptr<const JointSides> JointSides::exchanged() const {

@@ -87,7 +87,8 @@ struct JointLengths {
   double noise = 0;      ///< of the scans
   /// Gap spread that the scans' errors explain at most, or that tells nothing; infinite where these are not known.
   double explained = std::numeric_limits<double>::infinity();
-  double patch = 0;  ///< side of a patch of surface whose relief is independent of the next one's
+  double patch = 0;           ///< side of a patch of surface whose relief is independent of the next one's
+  double worn_tolerance = 0;  ///< what `tolerance` is to be for worn breaks
 
   /// How deep a body's surface can lie in the other one's.
   double deepest() const { return thickness > 0 ? 0.6 * thickness : 8.0 * spacing; }
@@ -97,6 +98,9 @@ struct JointLengths {
 class JointSides {
  public:
   JointSides(const Fragment& a, const Fragment& b);
+
+  /// To be judged by the distances of worn breaks; shares the samples.
+  std::unique_ptr<const JointSides> worn() const;
 
   /// A and B exchanged; shares the samples.
   std::unique_ptr<const JointSides> exchanged() const;

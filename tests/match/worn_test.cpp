@@ -1,0 +1,93 @@
+// Breaks that have lost some of their surface since, each side another part of it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "match/refine.hpp"
+#include "match/verify.hpp"
+#include "prepared_pair.hpp"
+
+namespace rejoin::match {
+namespace {
+
+using testing::moved;
+using testing::Pair;
+using testing::worst_offset;
+
+/// What a break has lost, mm, on average 0.7; the sides differ.
+double lost(double x, double y, bool below) {
+  const double turn = below ? 0.4 : 1.5;
+  const double u = std::cos(turn) * x + std::sin(turn) * y;
+  const double v = std::cos(turn) * y - std::sin(turn) * x;
+  return 0.7 + 0.3 * std::sin(0.9 * u + turn) + 0.3 * std::sin(0.7 * v) + 0.1 * std::sin(1.3 * (u + v));
+}
+
+using Loss = std::function<double(double x, double y, bool below)>;
+
+/// Halves of a block, finely scanned.
+Pair pair_with(const Loss& loss) {
+  constexpr int kCells = 140;
+  Pair pair{testing::planted_pair(5, kCells), {}, {}, {}};
+  const auto half = [&](bool below, const Rigid& to_file) {
+    mesh::Mesh mesh = testing::half_block(below, kCells);
+    for (auto& v : mesh.vertices) {
+      if (std::abs(v.z) == static_cast<float>(testing::kHalfZ)) {
+        v.z += 0.005F * (std::sin(2.1F * v.x) + std::sin(2.3F * v.y));  // as a good scanner strays
+        continue;
+      }
+      v.z += static_cast<float>((below ? -1.0 : 1.0) * loss(v.x, v.y, below));
+    }
+    return prepare(below ? "below" : "above", moved(mesh, to_file, {1, 2, 3}), Context{});
+  };
+  pair.a = half(true, pair.planted.to_a);
+  pair.b = half(false, pair.planted.to_b);
+  pair.truth = to_origins(pair.a, pair.b, pair.planted.truth);
+  return pair;
+}
+
+Rigid found_pose(const Pair& pair, const Result& result) {
+  return to_origins(pair.a, pair.b, result.candidates.front().pose);
+}
+
+TEST(Worn, BreaksOfAFineScanJoinByTheDistancesOfWornOnes) {
+  const Pair pair = pair_with(lost);
+  ASSERT_TRUE(tell_wear(pair.a, pair.b));
+  const Joint fresh(pair.a, pair.b);
+  std::vector<Hypothesis> list{{pair.truth, fresh.agreed_evidence(pair.truth), 0.0, -1, -1}};
+  refine(list, fresh, passes(fresh.tolerance(), 8).back(), Context{});
+  tighten(list, fresh, pair.b, 0.0);
+  weigh(list, fresh);
+  EXPECT_LT(score_of(list.front().strength), kSure) << "the scan tells the wear";
+  const Result result = match(pair.a, pair.b, {}, Context{});
+  ASSERT_FALSE(result.candidates.empty());
+  EXPECT_EQ(result.verdict, Verdict::Join) << result.against;
+  EXPECT_EQ(result.breaks, Breaks::Worn);
+  EXPECT_LT(worst_offset(found_pose(pair, result), pair.truth, pair.b.surface), 1.5);
+}
+
+TEST(Worn, FreshBreaksOfAFineScanStayJudgedByTheirOwnDistances) {
+  const Pair pair = pair_with([](double, double, bool) { return 0.0; });
+  const Result result = match(pair.a, pair.b, {}, Context{});
+  ASSERT_FALSE(result.candidates.empty());
+  EXPECT_EQ(result.verdict, Verdict::Join) << result.against;
+  EXPECT_EQ(result.breaks, Breaks::Fresh);
+  EXPECT_LT(worst_offset(found_pose(pair, result), pair.truth, pair.b.surface), 0.05);
+}
+
+// Parts of one form that broke alike: one side bends away from the other by more than the scans stray, by less than breaks wear.
+TEST(Worn, AlikeBreaksThatAFineScanTellsApartAreNoJoin) {
+  const Pair pair = pair_with(
+      [](double x, double y, bool below) { return below ? 0.0 : 0.12 * std::sin(0.14 * x + 0.1 * y); });
+  ASSERT_TRUE(tell_wear(pair.a, pair.b));
+  const Joint worn = Joint(pair.a, pair.b).worn();
+  EXPECT_GT(score_of(strength(weigh(worn.agreed_evidence(pair.truth), worn, pair.truth))), kSure)
+      << "the larger distances hide it";
+  const Result result = match(pair.a, pair.b, {}, Context{});
+  ASSERT_FALSE(result.candidates.empty());
+  EXPECT_EQ(result.verdict, Verdict::Unsure);
+  EXPECT_EQ(result.breaks, Breaks::Fresh);
+}
+
+}  // namespace
+}  // namespace rejoin::match
