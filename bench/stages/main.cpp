@@ -1,5 +1,5 @@
 // What every stage of the sweep search is worth, on sets of fragments with known poses: whether the true pose is still among
-// those that go on, and what the answer would be if the search ended there.  With --knowledge, what it is worth to know the
+// those that go on, and what the answer would be if the search ended there, judged as fresh breaks.  With --knowledge, what it is worth to know the
 // directions of the breaks or a facet instead; with --continuation, how much skin goes on across the borders of right and of
 // wrong poses.  Markdown on stdout.
 #include <fmt/format.h>

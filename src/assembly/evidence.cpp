@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/angle.hpp"
+#include "match/judge.hpp"
 #include "match/refine.hpp"
 #include "match/stability.hpp"
 #include "match/verify.hpp"
@@ -32,9 +33,9 @@ match::Evidence contact_evidence(const Piece& a, const Piece& b, const Rigid& b_
   const match::Joint fresh(a.fragment(), b.fragment());
   const Rigid at = match::to_origins(a.fragment(), b.fragment(), b_to_a);
   const match::Evidence evidence = judged(fresh, at);
-  if (!match::tell_wear(a.fragment(), b.fragment())) return evidence;
+  if (!match::tell_wear(a.fragment(), b.fragment()) || match::fits(fresh, at)) return evidence;
   const match::Evidence worn = judged(fresh.worn(), at);
-  return match::rank(worn) > match::rank(evidence) ? worn : evidence;
+  return match::strength(worn) > match::strength(evidence) ? worn : evidence;
 }
 
 bool same_pose(const Piece& a, const Piece& b, const Rigid& first, const Rigid& second,

@@ -17,9 +17,9 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 constexpr int kRounds = 14;
-constexpr double kReachStart = 16.0;  // touching distances
-constexpr double kReachEnd = 3.0;
-constexpr double kReachMet = 2.0;         // all along, of two that nobody searched for
+constexpr double kReachStart = 16.0;  // touching distances, of worn breaks
+constexpr double kReachEnd = 3.0;     // of fresh ones, to which the worn places of worn ones are not drawn
+constexpr double kReachMet = 2.0;     // all along, of two that nobody searched for
 constexpr std::size_t kMostPoints = 500;  // a pair and way
 constexpr double kPull = 0.03;            // weight of the pair's own pose against a contact point's
 constexpr double kLeastPoints = 8.0;      // a contact of fewer says nothing
@@ -77,9 +77,11 @@ class Rounds {
   Block block(const Touching& contact, const std::vector<Rigid>& poses, double share) const {
     const Piece& a = pieces_[contact.a];
     const Piece& b = pieces_[contact.b];
-    const double reach =
-        match::contact_tolerance(a.fragment(), b.fragment(), match::Breaks::Worn) *
-        (contact.known == Known::Met ? kReachMet : kReachStart * std::pow(kReachEnd / kReachStart, share));
+    const double touching = match::contact_tolerance(a.fragment(), b.fragment(), match::Breaks::Fresh);
+    const double start =
+        kReachStart * match::contact_tolerance(a.fragment(), b.fragment(), match::Breaks::Worn);
+    const double reach = contact.known == Known::Met ? kReachMet * touching
+                                                     : start * std::pow(kReachEnd * touching / start, share);
     const Rigid b_to_a = inverse(poses[contact.a]) * poses[contact.b];
     Block result;
     double weight = 0.0;

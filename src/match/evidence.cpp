@@ -220,7 +220,7 @@ class Look {
     double depth = 0.0;
     for (const std::uint32_t i : chosen.list) {
       const glm::vec3 p = move_(b_.body.points[i]);
-      const auto hit = finder.within(p, lengths_.deepest());
+      const auto hit = finder.within(p, lengths_.deepest);
       if (!hit) continue;
       const glm::vec3 offset = p - a_.body.points[hit->first];
       const auto gap = static_cast<double>(glm::dot(offset, a_.body.normals[hit->first]));

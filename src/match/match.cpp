@@ -217,33 +217,31 @@ double strongest(std::span<const Hypothesis> hypotheses) {
   return most;
 }
 
-/// What the poses of a pair come to.
-struct Judged {
+/// What the poses of a pair come to, judged in one way.
+struct Look {
+  Breaks breaks = Breaks::Fresh;
   std::vector<Hypothesis> hypotheses;  ///< as many as are asked for
   std::optional<Stability> stability;  ///< of the first
   std::vector<std::string> warnings;
-  Breaks breaks = Breaks::Fresh;
+  double promise = 0;      ///< Result::promise
+  bool in_full = true;     ///< Result::in_full
+  bool has_a_fit = false;  ///< some pose is as strong as a sure one, whatever it is held back by
 
   double strength() const { return hypotheses.empty() ? 0.0 : hypotheses.front().strength; }
   bool is_sure() const { return verdict_of(score_of(strength()), stability) == Verdict::Join; }
 };
 
-/// Whether breaks fit at a pose, but for other reasons than that they would join: they slide there, fit elsewhere too, or are alike.
-bool are_doubted(const Judged& fresh, const Rigid& pose, const Fragment& a, const Fragment& b) {
-  const auto same = [&](const Hypothesis& h) {
-    return same_pose(h.pose, pose, mesh::centroid(b.surface), std::min(a.diameter, b.diameter));
-  };
-  const auto alike = [](const Hypothesis& h) { return drifts(h.evidence) && score_of(h.as_rival) >= kSure; };
-  if (fresh.hypotheses.empty()) return false;
-  if (score_of(fresh.strength()) >= kSure && same(fresh.hypotheses.front())) return true;
-  return std::ranges::any_of(fresh.hypotheses, [&](const Hypothesis& h) { return alike(h) && same(h); });
-}
-
-/// \param hypotheses  after kGlance rounds
-Judged judged(std::vector<Hypothesis> hypotheses, const Joint& joint, const Fragment& a, const Fragment& b,
-              const std::optional<Near>& near, const Options& options, const Context& context) {
-  Judged result;
+Look look(std::vector<Hypothesis> hypotheses, const Joint& joint, const Fragment& a, const Fragment& b,
+          const std::optional<Near>& near, const Options& options, const Context& context) {
+  Look result;
   const auto rounds = passes(joint.tolerance(), options.max_candidates);
+  align(hypotheses, joint, a, b, near, std::span(rounds).first(kGlance), context);
+  result.promise = strongest(hypotheses);
+  if (options.promising_only && result.promise < (both_thin(a, b) ? kWorthwhileThin : kWorthwhile)) {
+    result.in_full = false;
+    result.hypotheses = std::move(hypotheses);
+    return result;
+  }
   if (!context.cancelled()) align(hypotheses, joint, a, b, near, std::span(rounds).subspan(kGlance), context);
   if (near && !context.cancelled()) keep_laid(hypotheses, joint, a, b, *near, rounds, options, context);
   if (!context.cancelled()) tighten(hypotheses, joint, b, std::min(a.diameter, b.diameter));
@@ -252,6 +250,8 @@ Judged judged(std::vector<Hypothesis> hypotheses, const Joint& joint, const Frag
   if (near) keep_near(hypotheses, *near);
   if (axes_restrict(options)) keep_axes(hypotheses, options, result.warnings);
   const double next = strongest_rival(hypotheses);
+  result.has_a_fit = std::ranges::any_of(
+      hypotheses, [](const Hypothesis& hypothesis) { return score_of(hypothesis.as_rival) >= kSure; });
   hypotheses.resize(std::min(hypotheses.size(), static_cast<std::size_t>(options.max_candidates)));
   if (!hypotheses.empty() && !context.cancelled()) {
     const Hypothesis& best = hypotheses.front();
@@ -263,6 +263,20 @@ Judged judged(std::vector<Hypothesis> hypotheses, const Joint& joint, const Frag
   }
   result.hypotheses = std::move(hypotheses);
   return result;
+}
+
+/// As fresh breaks, and where these fit nowhere, as worn ones.  Breaks that fit by the smaller distances and are doubted, as they slide,
+/// drift or fit at several poses, are not asked again by distances that hide it.
+Look look_both_ways(std::vector<Hypothesis> hypotheses, const Fragment& a, const Fragment& b,
+                    const Joint& joint, const std::optional<Near>& near, const Options& options,
+                    const Context& context) {
+  Look fresh = look(hypotheses, joint, a, b, near, options, context);
+  if (!tell_wear(a, b) || fresh.has_a_fit || context.cancelled()) return fresh;
+  Look worn = look(std::move(hypotheses), joint.worn(), a, b, near, options, context);
+  worn.breaks = Breaks::Worn;
+  worn.promise = fresh.promise = std::max(fresh.promise, worn.promise);
+  const bool better = fresh.in_full == worn.in_full ? worn.strength() > fresh.strength() : worn.in_full;
+  return better && !context.cancelled() ? worn : fresh;
 }
 
 /// Ends with the best pose so far, if there is one.
@@ -302,9 +316,7 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
   Verifier verifier(a, b, options);
   result.backend = verifier.backend();
   result.renderer = verifier.renderer();
-  const Joint fresh(a, b);
-  std::optional<Joint> worn;
-  if (tell_wear(a, b)) worn = fresh.worn();
+  const Joint joint(a, b);
   clock.lap("prepare");
 
   context.report("search", 0.0);
@@ -321,24 +333,15 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
   clock.lap("search");
 
   context.report("align", 0.5);
-  const Joint& wider = worn ? *worn : fresh;
-  const auto rounds = passes(wider.tolerance(), options.max_candidates);
-  align(hypotheses, wider, a, b, near, std::span(rounds).first(kGlance), context);
-  result.promise = strongest(hypotheses);
-  if (options.promising_only && result.promise < (both_thin(a, b) ? kWorthwhileThin : kWorthwhile)) {
+  const Look best = look_both_ways(std::move(hypotheses), a, b, joint, near, options, context);
+  result.promise = best.promise;
+  result.breaks = best.breaks;
+  if (!best.in_full) {
     clock.lap("align");
-    give_up(a, b, hypotheses, context, result);
+    give_up(a, b, best.hypotheses, context, result);
     return result;
   }
-  Judged best = judged(hypotheses, fresh, a, b, near, options, context);
-  if (worn && !best.is_sure() && !context.cancelled()) {
-    Judged as_worn = judged(std::move(hypotheses), *worn, a, b, near, options, context);
-    as_worn.breaks = Breaks::Worn;
-    const bool better = as_worn.is_sure() || as_worn.strength() > best.strength();
-    if (better && !are_doubted(best, as_worn.hypotheses.front().pose, a, b)) best = std::move(as_worn);
-  }
   result.stability = best.stability;
-  result.breaks = best.breaks;
   result.warnings.insert(result.warnings.end(), best.warnings.begin(), best.warnings.end());
   clock.lap("align");
 

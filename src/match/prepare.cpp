@@ -144,17 +144,19 @@ double samples_spacing(const Fragment& a, const Fragment& b) {
 
 double contact_tolerance(const Fragment& a, const Fragment& b, Breaks breaks) {
   constexpr double kNoiseInGaps = 3.0;  // deviations of gaps by what is left of noise that still touch
-  constexpr double kWorn = 0.0075;      // of the smaller solid piece's size
+  constexpr double kWorn = 0.0075;      // of the smaller piece's size
+  constexpr double kMore = 1.25;        // than of fresh breaks, at least: else both ways say the same
   const double ruler = joint_ruler(a, b);
-  const double solid = std::max(0.15 * samples_spacing(a, b),
-                                breaks == Breaks::Worn ? kWorn * std::min(a.diameter, b.diameter) : 0.0);
-  return std::max({ruler > 0 ? 0.05 * ruler : solid, 0.3 * std::max(a.resolution, b.resolution),
-                   kNoiseInGaps * std::hypot(a.noise_left, b.noise_left)});
+  const double fresh = std::max({ruler > 0 ? 0.05 * ruler : 0.15 * samples_spacing(a, b),
+                                 0.3 * std::max(a.resolution, b.resolution),
+                                 kNoiseInGaps * std::hypot(a.noise_left, b.noise_left)});
+  if (breaks == Breaks::Fresh || a.facets.wall_thickness > 0 || b.facets.wall_thickness > 0) return fresh;
+  const double worn = kWorn * std::min(a.diameter, b.diameter);
+  return worn > kMore * fresh ? worn : fresh;
 }
 
 bool tell_wear(const Fragment& a, const Fragment& b) {
-  constexpr double kMore = 1.25;  // at least, else both ways say the same
-  return contact_tolerance(a, b, Breaks::Worn) > kMore * contact_tolerance(a, b, Breaks::Fresh);
+  return contact_tolerance(a, b, Breaks::Worn) > contact_tolerance(a, b, Breaks::Fresh);
 }
 
 mesh::Mesh surface_of(const std::string& path, mesh::Mesh scan) {

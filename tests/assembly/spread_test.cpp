@@ -19,7 +19,7 @@ class Lifted {
       : fragments_{match::prepare("below", match::testing::half_block(true, 48), Context{}),
                    match::prepare("above", match::testing::half_block(false, 48), Context{})},
 
-        lift_(distances * match::contact_tolerance(fragments_[0], fragments_[1], match::Breaks::Worn)) {
+        lift_(distances * match::contact_tolerance(fragments_[0], fragments_[1], match::Breaks::Fresh)) {
     for (const match::Fragment& fragment : fragments_) pieces_.emplace_back(fragment);
   }
 

@@ -10,9 +10,12 @@ namespace {
 
 constexpr double kWallClear = 0.25;  // wall thicknesses next to the seam that are left out: worn edges lie
 constexpr double kOpen = 0.05;  // of the surface has nothing behind it, of a scan whose walls may be missing
-constexpr double kCannotTell = 0.2;     // tolerances: gap spread of joints as good as any
-constexpr double kExplained = 5.0;      // deviations of both surfaces that sides of a break may lie apart by
-constexpr double kWornPatch = 10.0;     // tolerances: side of a patch of worn surface, as of sherds
+constexpr double kCannotTell = 0.2;  // tolerances: gap spread of joints as good as any
+constexpr double kExplained = 5.0;   // deviations of both surfaces that sides of a break may lie apart by
+constexpr double kWornPatch = 10.0;  // tolerances: side of a patch of worn surface, as of sherds
+constexpr double kWornNoise = 1.0 / 6.0;  // tolerances, as of coarse scans
+constexpr double kWornDepth =
+    25.0;  // tolerances that surfaces lie in each other by at most, as of coarse scans
 constexpr double kTableCell = 2.0;      // spacings: side of the cells of tables of near points
 constexpr double kTableReach = 20.0;    // tolerances: how far a quick alignment looks
 constexpr double kEnough = 1.0 / 3.0;   // of the samples asked for, at least, where the other piece is
@@ -79,6 +82,7 @@ JointLengths lengths_of(const Fragment& a, const Fragment& b) {
   l.worn_tolerance = contact_tolerance(a, b, Breaks::Worn);
   l.noise = 0.05 * scan;
   l.explained = std::max(kCannotTell * l.tolerance, kExplained * std::hypot(a.waviness, b.waviness));
+  l.deepest = l.thickness > 0 ? 0.6 * l.thickness : 8.0 * l.spacing;
   l.patch = std::max({0.5 * joint_ruler(a, b), 2.5 * l.spacing, 2.5 * scan});
   return l;
 }
@@ -134,6 +138,8 @@ std::unique_ptr<const JointSides> JointSides::worn() const {
   lengths.tolerance = lengths_.worn_tolerance;
   lengths.explained = std::max(lengths_.explained, kCannotTell * lengths.tolerance);
   lengths.patch = std::max(lengths_.patch, kWornPatch * lengths.tolerance);
+  lengths.noise = std::max(lengths_.noise, kWornNoise * lengths.tolerance);
+  lengths.deepest = std::max(lengths_.deepest, kWornDepth * lengths.tolerance);
   return std::unique_ptr<const JointSides>(new JointSides(a_, b_, lengths));
 }
 
@@ -149,7 +155,7 @@ const JointSides::Tables& JointSides::ready_tables() const {
     const double near = kWallNear * lengths_.thickness;
     tables_.broken =
         table(a_->broken, kTableCell * lengths_.spacing, std::max(kTableReach * lengths_.tolerance, near));
-    tables_.body = table(a_->body, kTableCell * lengths_.spacing, lengths_.deepest());
+    tables_.body = table(a_->body, kTableCell * lengths_.spacing, lengths_.deepest);
     if (lengths_.thickness > 0) {
       tables_.walls =
           table(a_->walls, kWallTableCell * lengths_.spacing, near + 0.5 * kTableReach * lengths_.tolerance);

@@ -88,10 +88,9 @@ struct JointLengths {
   /// Gap spread that the scans' errors explain at most, or that tells nothing; infinite where these are not known.
   double explained = std::numeric_limits<double>::infinity();
   double patch = 0;           ///< side of a patch of surface whose relief is independent of the next one's
-  double worn_tolerance = 0;  ///< what `tolerance` is to be for worn breaks
+  double worn_tolerance = 0;  ///< tolerance for worn breaks
 
-  /// How deep a body's surface can lie in the other one's.
-  double deepest() const { return thickness > 0 ? 0.6 * thickness : 8.0 * spacing; }
+  double deepest = 0;  ///< how deep a body's surface can lie in the other one's
 };
 
 /// Seen from A: B's points are looked for among A's.  Const members may be called from several threads.
