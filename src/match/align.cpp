@@ -155,9 +155,6 @@ Joint::Joint(const Fragment& a, const Fragment& b)
 Joint::Joint(std::unique_ptr<const detail::JointSides> sides)
     : sides_(std::move(sides)), exchanged_(sides_->exchanged()) {}
 
-Joint::Joint(Joint&&) noexcept = default;
-Joint& Joint::operator=(Joint&&) noexcept = default;
-
 Joint Joint::worn() const {
   return Joint(sides_->worn());
 }

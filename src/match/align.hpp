@@ -44,8 +44,6 @@ class Joint {
   /// The same, to be judged by those of worn ones.
   Joint worn() const;
 
-  Joint(Joint&&) noexcept;
-  Joint& operator=(Joint&&) noexcept;
   ~Joint();
 
   /// Robust point-to-plane alignment of the facing broken surfaces; for thin pieces the walls across the seam

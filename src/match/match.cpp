@@ -218,7 +218,7 @@ double strongest(std::span<const Hypothesis> hypotheses) {
 }
 
 /// What the poses of a pair come to, judged in one way.
-struct Look {
+struct Judgement {
   Breaks breaks = Breaks::Fresh;
   std::vector<Hypothesis> hypotheses;  ///< as many as are asked for
   std::optional<Stability> stability;  ///< of the first
@@ -228,12 +228,11 @@ struct Look {
   bool has_a_fit = false;  ///< some pose is as strong as a sure one, whatever it is held back by
 
   double strength() const { return hypotheses.empty() ? 0.0 : hypotheses.front().strength; }
-  bool is_sure() const { return verdict_of(score_of(strength()), stability) == Verdict::Join; }
 };
 
-Look look(std::vector<Hypothesis> hypotheses, const Joint& joint, const Fragment& a, const Fragment& b,
-          const std::optional<Near>& near, const Options& options, const Context& context) {
-  Look result;
+Judgement judged(std::vector<Hypothesis> hypotheses, const Joint& joint, const Fragment& a, const Fragment& b,
+                 const std::optional<Near>& near, const Options& options, const Context& context) {
+  Judgement result;
   const auto rounds = passes(joint.tolerance(), options.max_candidates);
   align(hypotheses, joint, a, b, near, std::span(rounds).first(kGlance), context);
   result.promise = strongest(hypotheses);
@@ -267,12 +266,12 @@ Look look(std::vector<Hypothesis> hypotheses, const Joint& joint, const Fragment
 
 /// As fresh breaks, and where these fit nowhere, as worn ones.  Breaks that fit by the smaller distances and are doubted, as they slide,
 /// drift or fit at several poses, are not asked again by distances that hide it.
-Look look_both_ways(std::vector<Hypothesis> hypotheses, const Fragment& a, const Fragment& b,
-                    const Joint& joint, const std::optional<Near>& near, const Options& options,
-                    const Context& context) {
-  Look fresh = look(hypotheses, joint, a, b, near, options, context);
+Judgement judged_both_ways(std::vector<Hypothesis> hypotheses, const Fragment& a, const Fragment& b,
+                           const Joint& joint, const std::optional<Near>& near, const Options& options,
+                           const Context& context) {
+  Judgement fresh = judged(hypotheses, joint, a, b, near, options, context);
   if (!tell_wear(a, b) || fresh.has_a_fit || context.cancelled()) return fresh;
-  Look worn = look(std::move(hypotheses), joint.worn(), a, b, near, options, context);
+  Judgement worn = judged(std::move(hypotheses), joint.worn(), a, b, near, options, context);
   worn.breaks = Breaks::Worn;
   worn.promise = fresh.promise = std::max(fresh.promise, worn.promise);
   const bool better = fresh.in_full == worn.in_full ? worn.strength() > fresh.strength() : worn.in_full;
@@ -333,7 +332,7 @@ Result match(const Fragment& a, const Fragment& b, const Options& options, const
   clock.lap("search");
 
   context.report("align", 0.5);
-  const Look best = look_both_ways(std::move(hypotheses), a, b, joint, near, options, context);
+  const Judgement best = judged_both_ways(std::move(hypotheses), a, b, joint, near, options, context);
   result.promise = best.promise;
   result.breaks = best.breaks;
   if (!best.in_full) {
