@@ -197,13 +197,17 @@ void align(std::vector<Hypothesis>& hypotheses, const Joint& joint, const Fragme
 
 /// Puts the pose that the user has laid, aligned, among as many others as are told besides, by its rank: others in reach may look better, but
 /// it stays.
+/// \param fresh  by whose distances it is aligned: the larger ones of worn breaks would move it far
 void keep_laid(std::vector<Hypothesis>& hypotheses, const Joint& joint, const Fragment& a, const Fragment& b,
-               const Near& near, std::span<const Pass> rounds, const Options& options,
-               const Context& context) {
+               const Near& near, const Joint& fresh, const Options& options, const Context& context) {
   std::vector<Hypothesis> laid{{near.pose(), {}, 0.0, -1, -1}};
-  align(laid, joint, a, b, near, rounds, context);
+  align(laid, fresh, a, b, near, passes(fresh.tolerance(), options.max_candidates), context);
   if (laid.empty() || options.max_candidates < 2) return;
   hypotheses.resize(std::min(hypotheses.size(), static_cast<std::size_t>(options.max_candidates) - 1));
+  if (&joint != &fresh) {
+    laid.front().evidence = joint.agreed_evidence(laid.front().pose);
+    laid.front().strength = strength(laid.front().evidence);
+  }
   const double worth = rank(laid.front().evidence);
   const auto place =
       std::ranges::find_if(hypotheses, [&](const Hypothesis& other) { return rank(other.evidence) < worth; });
@@ -230,8 +234,9 @@ struct Judgement {
   double strength() const { return hypotheses.empty() ? 0.0 : hypotheses.front().strength; }
 };
 
-Judgement judged(std::vector<Hypothesis> hypotheses, const Joint& joint, const Fragment& a, const Fragment& b,
-                 const std::optional<Near>& near, const Options& options, const Context& context) {
+Judgement judged(std::vector<Hypothesis> hypotheses, const Joint& joint, const Joint& fresh,
+                 const Fragment& a, const Fragment& b, const std::optional<Near>& near,
+                 const Options& options, const Context& context) {
   Judgement result;
   const auto rounds = passes(joint.tolerance(), options.max_candidates);
   align(hypotheses, joint, a, b, near, std::span(rounds).first(kGlance), context);
@@ -242,7 +247,7 @@ Judgement judged(std::vector<Hypothesis> hypotheses, const Joint& joint, const F
     return result;
   }
   if (!context.cancelled()) align(hypotheses, joint, a, b, near, std::span(rounds).subspan(kGlance), context);
-  if (near && !context.cancelled()) keep_laid(hypotheses, joint, a, b, *near, rounds, options, context);
+  if (near && !context.cancelled()) keep_laid(hypotheses, joint, a, b, *near, fresh, options, context);
   if (!context.cancelled()) tighten(hypotheses, joint, b, std::min(a.diameter, b.diameter));
   weigh(hypotheses, joint);
   if (!context.cancelled()) settle(hypotheses, joint, b, std::min(a.diameter, b.diameter));
@@ -269,9 +274,9 @@ Judgement judged(std::vector<Hypothesis> hypotheses, const Joint& joint, const F
 Judgement judged_both_ways(std::vector<Hypothesis> hypotheses, const Fragment& a, const Fragment& b,
                            const Joint& joint, const std::optional<Near>& near, const Options& options,
                            const Context& context) {
-  Judgement fresh = judged(hypotheses, joint, a, b, near, options, context);
+  Judgement fresh = judged(hypotheses, joint, joint, a, b, near, options, context);
   if (!tell_wear(a, b) || fresh.has_a_fit || context.cancelled()) return fresh;
-  Judgement worn = judged(std::move(hypotheses), joint.worn(), a, b, near, options, context);
+  Judgement worn = judged(std::move(hypotheses), joint.worn(), joint, a, b, near, options, context);
   worn.breaks = Breaks::Worn;
   worn.promise = fresh.promise = std::max(fresh.promise, worn.promise);
   const bool better = fresh.in_full == worn.in_full ? worn.strength() > fresh.strength() : worn.in_full;
