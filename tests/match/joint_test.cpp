@@ -118,12 +118,18 @@ TEST(Joint, EvidenceThatIsNotStrongEnoughIsToldEarlyAndNoOther) {
   }
 }
 
+/// Finely scanned, 50 across.
+Fragment solid_piece() {
+  Fragment piece;
+  piece.diameter = 50.0;
+  piece.least_extent = 20.0;
+  piece.resolution = 0.1;
+  piece.facets.samples.spacing = 0.5;
+  return piece;
+}
+
 TEST(Joint, TouchesWithinATwentiethOfTheWallOrOfATenthOfASmallSherd) {
-  Fragment a;
-  a.diameter = 50.0;
-  a.least_extent = 20.0;
-  a.resolution = 0.1;
-  a.facets.samples.spacing = 0.5;
+  Fragment a = solid_piece();
   a.facets.wall_thickness = 4.0;
   Fragment b = a;
   b.diameter = 80.0;
@@ -135,11 +141,7 @@ TEST(Joint, TouchesWithinATwentiethOfTheWallOrOfATenthOfASmallSherd) {
 }
 
 TEST(Joint, WornBreaksOfSolidPiecesTouchWithinAShareOfTheSmallerOne) {
-  Fragment a;
-  a.diameter = 50.0;
-  a.least_extent = 20.0;
-  a.resolution = 0.1;
-  a.facets.samples.spacing = 0.5;
+  Fragment a = solid_piece();
   Fragment b = a;
   b.diameter = 80.0;
   EXPECT_DOUBLE_EQ(contact_tolerance(a, b, Breaks::Fresh), 0.15 * 0.5);
