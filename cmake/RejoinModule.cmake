@@ -1,8 +1,9 @@
 # rejoin_module(NAME SOURCES ... [ALONE ...] [PUBLIC ...] [PRIVATE ...])
 #   A static library rejoin_NAME, alias rejoin::NAME, with the project's warnings and number rules.  ALONE are sources that others cannot be compiled
 #   with as one (CMAKE_UNITY_BUILD): kernels that include themselves for each processor, headers with macros.
-# rejoin_test(NAME SOURCES ... LIBS ... [LABELS ...])
-#   A GoogleTest program; each TEST becomes a CTest entry (with REJOIN_FAST_TESTS each fast program).  LABELS default to "fast".
+# rejoin_test(NAME SOURCES ... LIBS ... [LABELS ...] [TOGETHER])
+#   A GoogleTest program; each TEST becomes a CTest entry, or the program as a whole if they are run TOGETHER, as what they share takes
+#   longer to make than most of them run (with REJOIN_FAST_TESTS each fast program is one).  LABELS default to "fast".
 
 add_library(rejoin_warnings INTERFACE)
 target_compile_options(rejoin_warnings INTERFACE -Wall -Wextra -Wpedantic -ffp-contract=off
@@ -18,7 +19,7 @@ function(rejoin_module name)
 endfunction()
 
 function(rejoin_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LIBS;LABELS" ${ARGN})
+  cmake_parse_arguments(ARG "TOGETHER" "" "SOURCES;LIBS;LABELS" ${ARGN})
   if(NOT ARG_LABELS)
     set(ARG_LABELS fast)
   endif()
@@ -32,6 +33,9 @@ function(rejoin_test name)
     set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 1800)
   elseif(REJOIN_FAST_TESTS)
     set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
+  elseif(ARG_TOGETHER)
+    add_test(NAME ${name} COMMAND ${name})
+    set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 1800 COST 1000)  # the longest first
   else()
     gtest_discover_tests(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 600 DISCOVERY_TIMEOUT 120)
   endif()

@@ -14,6 +14,7 @@
 #include "assembly/pairs.hpp"
 #include "assembly/spread.hpp"
 #include "core/parallel.hpp"
+#include "match/judge.hpp"
 #include "match/verify.hpp"
 
 namespace rejoin::assembly {
@@ -206,7 +207,8 @@ class Assembler {
         const double score =
             matched
                 ? links_[link].score
-                : match::score_of(match::strength(contact_evidence(pieces_[a], pieces_[b], relative(a, b))));
+                : match::score_of(match::strength(
+                      match::judge(pieces_[a].fragment(), pieces_[b].fragment(), relative(a, b)).evidence));
         result.joins.push_back({a, b, score, contact.area, contact.gap_median, link >= given_});
       }
     }

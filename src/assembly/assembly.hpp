@@ -21,6 +21,7 @@ struct Link {
   double score = 0;  ///< how likely they join so, 0 .. 1
   bool holds =
       true;  ///< false if match::Stability casts doubt on it, or was not asked: however high the score, it needs a witness
+  bool slides = false;  ///< one piece along the other: other such contacts bear no witness
 };
 
 /// What the user knows.

@@ -8,7 +8,7 @@
 
 #include "core/parallel.hpp"
 #include "match/align.hpp"
-#include "match/refine.hpp"
+#include "match/judge.hpp"
 #include "match/verify.hpp"
 
 namespace rejoin::assembly {
@@ -24,14 +24,14 @@ using Key = std::pair<std::size_t, std::size_t>;
 
 /// The same join seen from the other side.
 Link turned(const Link& link) {
-  return {link.b, link.a, inverse(link.pose), link.score, link.holds};
+  return {link.b, link.a, inverse(link.pose), link.score, link.holds, link.slides};
 }
 
 /// The best links of each pair, a < b.
 std::map<Key, std::vector<Link>> best_links(const std::vector<Link>& links) {
   std::map<Key, std::vector<Link>> result;
   for (const Link& link : links) {
-    if (link.score < kLeastScore) continue;
+    if (link.score < kLeastScore || link.slides) continue;  // what slides leads to no definite place
     result[{std::min(link.a, link.b), std::max(link.a, link.b)}].push_back(link.a < link.b ? link
                                                                                            : turned(link));
   }
@@ -109,11 +109,12 @@ class Completer {
     const Rigid rough = joint.align(match::to_origins(a.fragment(), b.fragment(), guess.pose),
                                     {24.0 * tolerance, 4.0 * tolerance, 16, 300});
     const Rigid fine = joint.align(rough, {12.0 * tolerance, 3.0 * tolerance, 20, 0});
-    const double score =
-        match::score_of(match::strength(match::weigh(joint.agreed_evidence(fine), joint, fine)));
+    const match::Judged found = match::judge(joint, fine);
+    const double score = match::score_of(match::strength(found.evidence));
     if (score < kLikely) return std::nullopt;
     // No search told what else these two would do, nor was it probed: the pairs it follows from bear witness.
-    const Link link{guess.a, guess.b, match::to_files(a.fragment(), b.fragment(), fine), score, false};
+    const Rigid pose = match::to_files(a.fragment(), b.fragment(), fine);
+    const Link link{guess.a, guess.b, pose, score, false, found.evidence.slides};
     const bool stayed = same_pose(a, b, guess.pose, link.pose, options_);
     if (!stayed || is_known(link) || interpenetrate(a, b, link.pose)) return std::nullopt;
     return link;

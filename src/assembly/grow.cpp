@@ -119,7 +119,8 @@ Grower::Proposal Grower::weigh(const State& state, const Key& key, std::size_t l
     if (!fresh && odds_[other] > odds_[place->second]) place->second = other;
   }
   for (const auto& [pair, other] : agreeing) {
-    proposal.agreeing += std::max(0.0, odds_[other] + options_.loop_weight);
+    const bool both_slide = links_[link].slides && links_[other].slides;
+    proposal.agreeing += std::max(0.0, odds_[other] + (both_slide ? 0.0 : options_.loop_weight));
   }
   for (const auto& [pair, other] : contrary) {
     if (agreeing.count(pair) != 0 || odds_[other] < sure) continue;

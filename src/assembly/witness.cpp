@@ -6,6 +6,7 @@
 
 #include "assembly/pairs.hpp"
 #include "assembly/spread.hpp"
+#include "match/judge.hpp"
 #include "match/verify.hpp"
 
 namespace rejoin::assembly {
@@ -53,13 +54,17 @@ class Meeting {
     if (forbidden_touch()) return std::nullopt;
     Heard sum;
     const LinksPlane plane(*this);
+    const bool all_slide = std::ranges::all_of(links_, &Link::slides);
     for (std::size_t k = 0; k < others; ++k) {
       const auto [a, b, pose, known] = contacts[k];
       if (is_own(a, b)) continue;
-      const match::Evidence evidence = contact_evidence(pieces_[a], pieces_[b], relative(a, b));
-      const double in_plane = witness_odds(evidence, true);
-      double odds = witness_odds(evidence, false);
+      const match::Evidence contact =
+          match::judge(pieces_[a].fragment(), pieces_[b].fragment(), relative(a, b)).evidence;
+      const double in_plane = witness_odds(contact, true);
+      double odds = witness_odds(contact, false);
       if (odds > in_plane && plane.lies_in(*this, a, b)) odds = in_plane;
+      // What slides comes to lie on others by itself.
+      if (all_slide && match::strength(contact) <= match::kEven) odds = std::min(0.0, odds);
       sum.all += odds;
       if (!is_linked(a, b, relative(a, b))) sum.unlinked += odds;
     }

@@ -15,6 +15,7 @@ store::Candidate candidate_from(const match::Candidate& found) {
   store::Candidate candidate;
   candidate.score = found.score;
   candidate.pose = found.pose;
+  candidate.slides = found.slides;
   candidate.facet_a = found.facet_a;
   candidate.facet_b = found.facet_b;
   candidate.depth = found.error.depth;

@@ -145,7 +145,7 @@ AssembleInput read_run(const fs::path& folder, Console& console, const Context& 
     for (const store::Candidate& candidate : candidates) {
       // Else only its stability kept the verdict from "join", or it is a later pose, which was not probed.
       const bool holds = (join && candidate.rank == 1) || candidate.score < match::kSure;
-      input.links.push_back({a->second, b->second, candidate.pose, candidate.score, holds});
+      input.links.push_back({a->second, b->second, candidate.pose, candidate.score, holds, candidate.slides});
     }
   }
   return input;

@@ -30,7 +30,8 @@ ordered_json stability_json(const match::Stability& stability) {
           {"next_share", stability.next_share},
           {"repeat_deg", stability.repeat_deg},
           {"repeat_shift", stability.repeat_shift},
-          {"slide", stability.slide}};
+          {"slide", stability.slide},
+          {"elsewhere", stability.elsewhere}};
 }
 
 ordered_json fragment_json(const match::Fragment& fragment) {
@@ -86,6 +87,7 @@ std::string match_json(const match::Fragment& a, const match::Fragment& b, const
   for (const match::Candidate& candidate : result.candidates) {
     candidates.push_back({{"pose", to_json(candidate.pose)},
                           {"score", candidate.score},
+                          {"slides", candidate.slides},
                           {"facet_a", candidate.facet_a},
                           {"facet_b", candidate.facet_b},
                           {"error", error_json(candidate.error)}});

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "match/gap.hpp"
 #include "match/judge.hpp"
+#include "match/verify.hpp"
 
 namespace rejoin::match {
 namespace {
@@ -123,7 +124,8 @@ Comparison compare(const Fragment& a, const Fragment& b, const Rigid& pose, cons
   check(options);
   Comparison result;
   result.resolution = options.resolution;
-  result.joint = judge(a, b, pose);
+  const Judged judged = judge(a, b, pose);
+  result.joint = unmeasured(a, b, to_origins(a, b, pose), judged.evidence, strength(judged.evidence));
   result.view = view_of_pose(a, b, pose);
   const auto make = [&](zbuffer::Backend backend, const mesh::Mesh& first, const mesh::Mesh& second) {
     return zbuffer::make_scorer(backend, first, second,

@@ -46,6 +46,7 @@ struct Evidence {
   double continuation = 0;
   double drift = 1;         ///< Scales::drift and Scales::spread, once told_by_scale() was asked
   double drift_spread = 0;  ///< mesh units
+  bool slides = false;      ///< one piece along the other, once hold_sliding() was asked
   double tolerance = 0;     ///< distance below which the surfaces touch, mesh units
   /// Gap spread that the scans' errors explain at most, or that tells nothing, mesh units; infinite where these are not known.
   double explained = std::numeric_limits<double>::infinity();

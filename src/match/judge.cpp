@@ -1,27 +1,25 @@
 #include "match/judge.hpp"
 
-#include "match/align.hpp"
 #include "match/refine.hpp"
 #include "match/verify.hpp"
 
 namespace rejoin::match {
 
-bool fits(const Joint& joint, const Rigid& pose) {
-  const Evidence evidence = joint.agreed_evidence(pose);
-  return score_of(strength(evidence)) >= kSure &&
-         score_of(strength(told_by_scale(evidence, joint.scales(pose)))) >= kSure;
+Judged judge(const Joint& joint, const Rigid& pose) {
+  const Weighed weighed = weigh(joint.agreed_evidence(pose), joint, pose);
+  Judged result{weighed.evidence, Breaks::Fresh, weighed.as_rival};
+  if (strength(result.evidence) > kEven) hold_sliding(result.evidence, joint, pose);
+  return result;
 }
 
-Candidate judge(const Fragment& a, const Fragment& b, const Rigid& pose) {
-  const Joint fresh(a, b);
+Judged judge(const Fragment& a, const Fragment& b, const Rigid& pose) {
+  const Joint joint(a, b);
   const Rigid at = to_origins(a, b, pose);
-  Evidence evidence = weigh(fresh.agreed_evidence(at), fresh, at);
-  if (tell_wear(a, b) && !fits(fresh, at)) {
-    const Joint joint = fresh.worn();
-    const Evidence worn = weigh(joint.agreed_evidence(at), joint, at);
-    if (strength(worn) > strength(evidence)) evidence = worn;
-  }
-  return unmeasured(a, b, at, evidence, strength(evidence));
+  const Judged fresh = judge(joint, at);
+  if (!tell_wear(a, b) || score_of(fresh.as_rival) >= kSure) return fresh;
+  Judged worn = judge(joint.worn(), at);
+  worn.breaks = Breaks::Worn;
+  return strength(worn.evidence) > strength(fresh.evidence) ? worn : fresh;
 }
 
 }  // namespace rejoin::match

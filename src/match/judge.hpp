@@ -6,16 +6,20 @@
 
 namespace rejoin::match {
 
-/// Whether breaks fit at a pose as those of a sure join do, whatever speaks against it: what fits as fresh breaks is not judged as worn
-/// ones, which would hide what speaks against it.
-/// \param joint  as fresh breaks
-/// \param pose   B -> A, relative to the meshes' origins
-bool fits(const Joint& joint, const Rigid& pose);
+/// A pose, judged without any search or alignment: a rough one, at which the breaks do not touch, is worth nothing.
+struct Judged {
+  Evidence evidence;  ///< weigh()ed, and held back where one piece slides along the other
+  Breaks breaks = Breaks::Fresh;
+  double as_rival = 0;  ///< Hypothesis::as_rival
+};
 
-/// The figures and the score of a pose, by the measures of match(), without any search or alignment: a rough pose, at which the breaks do
-/// not touch, has neither.  Of a pose that match() gives, the figures are those that it tells; the score may be a little higher, as match()
-/// does not count what its last small steps gain.  Errors by depth maps stay infinite.  There is no verdict: it rests on the pair's other poses.
+/// \param pose  B -> A, relative to the meshes' origins
+Judged judge(const Joint& joint, const Rigid& pose);
+
+/// As fresh breaks, and as worn ones where these do not fit as those of a sure join do: what fits and is doubted would be hidden by the
+/// larger distances.  The stronger counts.  The figures are those that match() tells of its poses; the strength may be a little higher, as
+/// match() does not count what its last small steps gain.  There is no verdict: it rests on the pair's other poses.
 /// \param pose  B's file coordinates -> A's
-Candidate judge(const Fragment& a, const Fragment& b, const Rigid& pose);
+Judged judge(const Fragment& a, const Fragment& b, const Rigid& pose);
 
 }  // namespace rejoin::match

@@ -253,13 +253,14 @@ Judgement judged(std::vector<Hypothesis> hypotheses, const Joint& joint, const J
   if (!context.cancelled()) settle(hypotheses, joint, b, std::min(a.diameter, b.diameter));
   if (near) keep_near(hypotheses, *near);
   if (axes_restrict(options)) keep_axes(hypotheses, options, result.warnings);
+  if (!context.cancelled()) probe_likely(hypotheses, joint);
   const double next = strongest_rival(hypotheses);
   result.has_a_fit = std::ranges::any_of(
       hypotheses, [](const Hypothesis& hypothesis) { return score_of(hypothesis.as_rival) >= kSure; });
   hypotheses.resize(std::min(hypotheses.size(), static_cast<std::size_t>(options.max_candidates)));
   if (!hypotheses.empty() && !context.cancelled()) {
     const Hypothesis& best = hypotheses.front();
-    result.stability = probe(joint, best.pose, best.evidence);
+    result.stability = best.stability ? best.stability : probe(joint, best.pose, best.evidence);
     if (result.stability) {
       result.stability->margin = log_odds(best.strength) - log_odds(next);
       if (best.strength > 0.0) result.stability->next_share = next / best.strength;

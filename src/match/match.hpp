@@ -148,6 +148,8 @@ struct JointError {
 struct Candidate {
   Rigid pose;        ///< B's file coordinates -> A's file coordinates
   double score = 0;  ///< 0 .. 1
+  bool slides =
+      false;  ///< one piece along the other, where that was probed: of poses that would be likelier than not
   JointError error;
   int facet_a = -1;  ///< the facets that face each other; -1: not from a facet
   int facet_b = -1;
@@ -164,6 +166,9 @@ struct Stability {
   /// Of the distance between poses pushed to either side where the joint holds least, the share that is left after aligning them
   /// again: 0 both end at one place, 1 free.
   double slide = 0;
+  /// Of its strength, the share at the better of two places farther along that direction, where the alignment stays: near 1 where what is
+  /// drawn along a line, as a run moulding is, lies in its like.  0 where it returns.
+  double elsewhere = 0;
 };
 
 /// A point of the search's course, for the convergence picture.

@@ -9,7 +9,7 @@
 #include "core/parallel.hpp"
 #include "match/cuts.hpp"
 #include "match/esa_search.hpp"
-#include "match/verify.hpp"
+#include "match/stability.hpp"
 
 namespace rejoin::match {
 namespace {
@@ -24,6 +24,8 @@ constexpr std::size_t kShare =
     3;  // the poses of one pair of facets take one of so many parts of the places that go on
 constexpr int kHalvings = 40;
 constexpr double kNoLimit = -std::numeric_limits<double>::infinity();
+constexpr double kFirm =
+    0.3;  // Stability::slide of the best pose beside which those that slide are no rivals
 
 void sort_by_rank(std::vector<Hypothesis>& list) {
   std::stable_sort(list.begin(), list.end(), [](const Hypothesis& x, const Hypothesis& y) {
@@ -221,17 +223,39 @@ Evidence at_most_even(const Evidence& evidence) {
   return with(low);
 }
 
-Evidence weigh(const Evidence& evidence, const Joint& joint, const Rigid& pose) {
-  return held_back(told(evidence, joint, pose), joint);
+Weighed weigh(const Evidence& evidence, const Joint& joint, const Rigid& pose) {
+  const Evidence all = told(evidence, joint, pose);
+  return {held_back(all, joint), strength(all)};
 }
 
 void weigh(std::vector<Hypothesis>& list, const Joint& joint) {
   parallel_for(list.size(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
       Hypothesis& hypothesis = list[k];
-      const Evidence evidence = told(hypothesis.evidence, joint, hypothesis.pose);
-      hypothesis.as_rival = std::min(hypothesis.strength, strength(evidence));
-      hypothesis.evidence = held_back(evidence, joint);
+      const Weighed weighed = weigh(hypothesis.evidence, joint, hypothesis.pose);
+      hypothesis.as_rival = std::min(hypothesis.strength, weighed.as_rival);
+      hypothesis.evidence = weighed.evidence;
+      hypothesis.strength = std::min(hypothesis.strength, strength(hypothesis.evidence));
+    }
+  });
+  sort_by_rank(list);
+}
+
+std::optional<Stability> hold_sliding(Evidence& evidence, const Joint& joint, const Rigid& pose) {
+  const auto stability = probe(joint, pose, evidence);
+  if (!stability || !slides(*stability)) return stability;
+  evidence.continuation = 0.0;  // of what is drawn along a line the skin goes on wherever it lies
+  evidence = at_most_even(evidence);
+  evidence.slides = true;
+  return stability;
+}
+
+void probe_likely(std::vector<Hypothesis>& list, const Joint& joint) {
+  parallel_for(list.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t k = first; k < last; ++k) {
+      Hypothesis& hypothesis = list[k];
+      if (hypothesis.as_rival <= kEven) continue;
+      hypothesis.stability = hold_sliding(hypothesis.evidence, joint, hypothesis.pose);
       hypothesis.strength = std::min(hypothesis.strength, strength(hypothesis.evidence));
     }
   });
@@ -239,8 +263,12 @@ void weigh(std::vector<Hypothesis>& list, const Joint& joint) {
 }
 
 double strongest_rival(const std::vector<Hypothesis>& list) {
+  if (list.empty()) return 0.0;
+  const std::optional<Stability>& best = list.front().stability;
+  const bool firm = best && best->slide < kFirm;
   double most = 0.0;
-  for (std::size_t k = 1; k < list.size(); ++k) most = std::max(most, list[k].as_rival);
+  for (std::size_t k = 1; k < list.size(); ++k)
+    most = std::max(most, firm && list[k].evidence.slides ? list[k].strength : list[k].as_rival);
   return most;
 }
 
@@ -258,7 +286,7 @@ void settle(std::vector<Hypothesis>& list, const Joint& joint, const Fragment& b
                                                           .both = true});
       const Evidence open = joint.agreed_evidence(aligned);
       hypothesis.pose = Rigid{glm::dmat3(1.0), -open.gap_middle * open.normal} * aligned;
-      hypothesis.evidence = weigh(joint.agreed_evidence(hypothesis.pose), joint, hypothesis.pose);
+      hypothesis.evidence = weigh(joint.agreed_evidence(hypothesis.pose), joint, hypothesis.pose).evidence;
     }
   });
   list = distinct(list, b, diameter);

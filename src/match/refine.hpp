@@ -1,6 +1,7 @@
 /// Many rough poses become a few aligned ones.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/context.hpp"
@@ -17,6 +18,7 @@ struct Hypothesis {
   int facet_b = -1;
   double as_rival =
       0;  ///< the same without what weigh() holds back: of ridges in grooves, equal poses may lie on both sides of a limit
+  std::optional<Stability> stability = std::nullopt;  ///< where it was probed
 };
 
 /// One round of alignment over all hypotheses that are left.
@@ -69,19 +71,36 @@ bool hardly_agrees(const Evidence& evidence);
 /// The evidence with at most as much information as leaves a joint as likely as not.
 Evidence at_most_even(const Evidence& evidence);
 
+/// The evidence of a pose, weighed.
+struct Weighed {
+  Evidence evidence;
+  double as_rival = 0;  ///< Hypothesis::as_rival
+};
+
 /// The evidence of a pose with less information where it would say too much: where only large, smooth shape agrees, loosely
 /// (told_by_scale()), and where what touches may be walls, solid pieces lie loosely on each other, hardly any shape agrees, or gaps drift: such a joint is
 /// at most as likely as not.
 /// \param evidence  joint.agreed_evidence(pose)
 /// \source docs/scoring.md
-Evidence weigh(const Evidence& evidence, const Joint& joint, const Rigid& pose);
+Weighed weigh(const Evidence& evidence, const Joint& joint, const Rigid& pose);
 
 /// Weighs the poses that are left, then sorts.
 /// \pre tightened
 void weigh(std::vector<Hypothesis>& list, const Joint& joint);
 
-/// The largest strength as a rival of all but the first; 0 if there are none.
-/// \pre weighed
+/// Probes a pose; one along which one piece slides is at most as likely as not then.
+/// \param evidence  weigh()ed
+/// \return as probe()
+std::optional<Stability> hold_sliding(Evidence& evidence, const Joint& joint, const Rigid& pose);
+
+/// Probes the poses that would be likelier than not, and holds those back along which one piece slides: what is drawn along a line, as run
+/// mouldings and flutes are, lies in its like anywhere.  Then sorts.
+/// \pre settled
+void probe_likely(std::vector<Hypothesis>& list, const Joint& joint);
+
+/// The largest strength as a rival of all but the first; 0 if there are none.  Beside a first pose that holds firmly, one that slides is
+/// a rival by what was not held back alone.
+/// \pre weighed, and probed
 double strongest_rival(const std::vector<Hypothesis>& list);
 
 /// Aligns what may be a join by both pieces' samples at once, and shifts it along its normal until the median of its gaps, signed

@@ -18,6 +18,7 @@ constexpr double kSlope = 0.75;     // strength that multiplies the odds by e
 constexpr double kAhead = 11.0;     // log-odds of a sure join over those of the pair's next pose, at least
 constexpr double kNext = 0.8;       // of the strength of a sure join, that of the pair's next pose, at most
 constexpr double kRounding = 1e-6;  // strength: what at_most_even() held back has kEven
+constexpr double kLike = 0.5;       // of its strength, what it leaves at most farther along
 constexpr double kHeld = 0.6;  // of the distance between two pushed poses, what a sure join leaves at most
 
 /// Whether the pair's next pose comes near: of large joints equal poses differ by more than kAhead by chance.
@@ -49,12 +50,11 @@ double score_of(double strength) {
 }
 
 bool slides(const Stability& stability) {
-  return stability.slide > kHeld;
+  return stability.slide > kHeld || stability.elsewhere > kLike;
 }
 
 Verdict verdict_of(double score, const std::optional<Stability>& stability) {
-  const bool holds =
-      stability && stability->repeat_deg <= kSteady && !slides(*stability) && !has_rival(*stability);
+  const bool holds = stability && stability->repeat_deg <= kSteady && !has_rival(*stability);
   if (score >= kSure && holds) return Verdict::Join;
   return score >= kPossible ? Verdict::Unsure : Verdict::NoJoin;
 }
@@ -64,15 +64,14 @@ std::string against(const Evidence& evidence, double score, const std::optional<
   if (score >= kSure) {
     if (!stability) return "it was not looked at whether the pose holds";
     if (has_rival(*stability)) return told_rival(*stability);
-    if (stability->repeat_deg > kSteady)
-      return fmt::format("either half of the break turns the pose by {:.1f} degrees", stability->repeat_deg);
-    return "one piece slides along the other: nothing holds it there";
+    return fmt::format("either half of the break turns the pose by {:.1f} degrees", stability->repeat_deg);
   }
   if (drifts(evidence) && std::abs(strength(evidence) - kEven) < kRounding) {
     return fmt::format(
         "the gap drifts over the break, by {:.2g}, and the scans stray by less: these are alike, or worn",
         evidence.drift_spread);
   }
+  if (evidence.slides) return "one piece slides along the other: nothing holds it there";
   const std::string found = objection(evidence);
   return found.empty() ? "the breaks have too little shape in common" : found;
 }
@@ -82,6 +81,7 @@ Candidate unmeasured(const Fragment& a, const Fragment& b, const Rigid& pose, co
   Candidate c;
   c.pose = to_files(a, b, pose);
   c.score = score_of(strength);
+  c.slides = evidence.slides;
   c.error.contact_area = evidence.contact_area;
   c.error.gap_median = evidence.gap_median;
   const double over = std::max(evidence.contact_area, evidence.penetration_area);

@@ -25,7 +25,7 @@ double log_odds(double strength);
 /// Strength -> probability that the pieces join, 0 .. 1.  \source docs/scoring.md tells how it was calibrated.
 double score_of(double strength);
 
-/// Whether nothing in the joint holds one piece on the other in some direction.
+/// Whether nothing in the joint holds one piece on the other in some direction, or it fits as well farther along.
 bool slides(const Stability& stability);
 
 /// \param score      of the best candidate

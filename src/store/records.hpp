@@ -94,7 +94,8 @@ struct Pair {
 struct Candidate {
   int rank = 0;  ///< from 1, likeliest first, which need not be the highest score
   double score = 0;
-  Rigid pose;  ///< B's file coordinates -> A's file coordinates
+  Rigid pose;           ///< B's file coordinates -> A's file coordinates
+  bool slides = false;  ///< one piece along the other
   int facet_a = -1;
   int facet_b = -1;
   double depth = std::numeric_limits<double>::infinity();    ///< slope difference per pixel step

@@ -305,8 +305,9 @@ std::vector<Candidate> Run::candidates(const Pair& pair) const {
 
 std::vector<Candidate> Run::candidates(std::int64_t a, std::int64_t b) const {
   return detail::guarded(access_->path, [&] {
-    auto rows = access_->query(fmt::format("SELECT {} FROM candidate WHERE a = ? AND b = ? ORDER BY rank",
-                                           detail::kCandidateColumns));
+    auto rows =
+        access_->query(fmt::format("SELECT {} FROM candidate WHERE a = ? AND b = ? ORDER BY rank",
+                                   detail::candidate_columns(detail::has_slides(*access_->database))));
     rows.bind(1, a);
     rows.bind(2, b);
     std::vector<Candidate> list;
@@ -400,7 +401,7 @@ void Run::save(const Pair& pair, const std::vector<Candidate>& candidates) {
     row.bind(9, pair.result);
     row.exec();
     auto insert = access_->query(fmt::format("INSERT INTO candidate (a, b, {}) VALUES (?, ?{})",
-                                             detail::kCandidateColumns, detail::placeholders()));
+                                             detail::candidate_columns(true), detail::placeholders()));
     int rank = 0;
     for (Candidate candidate : candidates) {
       candidate.rank = ++rank;

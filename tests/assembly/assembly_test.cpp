@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
+#include <utility>
 
 #include "assembly/evidence.hpp"
 #include "assembly/witness.hpp"
@@ -296,13 +298,34 @@ TEST(Witness, FlatContactsSpeakOutOfTheLinksPlaneAlone) {
     poses.push_back({glm::dmat3(1.0), at});
   }
   const Link link{0, 2, inverse(poses[0]) * poses[2], 0.5};
-  const auto heard = [&](const std::vector<std::vector<std::size_t>>& groups) {
-    return witness_odds(pieces, {link}, groups, poses, {});
+  const auto heard = [&](const std::vector<std::vector<std::size_t>>& groups, bool slides = false) {
+    Link asked = link;
+    asked.slides = slides;
+    return witness_odds(pieces, {asked}, groups, poses, {});
   };
   ASSERT_TRUE(heard({{0, 1}, {2, 3}}));
   EXPECT_GT(*heard({{0, 1}, {2, 3}}), 1.0) << "heard, by its outline";
   // 1 and 3 meet in the plane in which 0 and 2 do, 3 and 2 at a right angle to it: whole sides both.
   EXPECT_GT(heard({{0, 3}, {2}}).value_or(0.0), *heard({{0, 1}, {2, 3}}) + 5.0);
+  EXPECT_LE(heard({{0, 3}, {2}}, true).value_or(1.0), 0.0) << "what slides comes to lie on others by itself";
+}
+
+// Two bricks side by side and one on both.
+TEST(Assemble, JoinsAlongWhichPiecesSlideAreNoWitnessesOfEachOther) {
+  const match::Fragment brick = match::prepare("brick", mesh::test::box({20, 20, 20}, 12), Context{});
+  const std::vector<match::Fragment> bricks{brick, brick, brick};
+  const std::array at{Rigid{glm::dmat3(1.0), {-10, 0, 0}}, Rigid{glm::dmat3(1.0), {10, 0, 0}},
+                      Rigid{glm::dmat3(1.0), {0, 0, 20}}};
+  const auto together = [&](bool slide) {
+    std::vector<Link> links;
+    for (const auto& [a, b] : {std::pair(0, 1), std::pair(1, 2), std::pair(0, 2)})
+      links.push_back({static_cast<std::size_t>(a), static_cast<std::size_t>(b),
+                       inverse(at[static_cast<std::size_t>(a)]) * at[static_cast<std::size_t>(b)], 0.5, true,
+                       slide});
+    return assemble(bricks, links, {}, Context()).groups;
+  };
+  EXPECT_EQ(together(false), 1);
+  EXPECT_EQ(together(true), 0);
 }
 
 TEST(Assemble, TwoObjectsStayTwo) {

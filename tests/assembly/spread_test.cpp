@@ -6,8 +6,6 @@
 #include <vector>
 
 #include "../match/prepared_pair.hpp"
-#include "assembly/evidence.hpp"
-#include "match/verify.hpp"
 
 namespace rejoin::assembly {
 namespace {
@@ -57,29 +55,6 @@ TEST(Spread, PointsThatAreLeftOutAreStoodForByOthers) {
   };
   ASSERT_LT(facing_points(a, b, Rigid{}, 1.0, 100).size(), facing_points(a, b, Rigid{}, 1.0, 0).size() / 2);
   EXPECT_NEAR(area(100), area(0), 0.05 * area(0));
-}
-
-// A moulded edge in another's step is no less a contact, but holds no pose.
-TEST(ContactEvidence, OfGroovesAlongWhichAPieceSlidesIsEvenAtMost) {
-  const auto moulded = [](bool below) {
-    mesh::Mesh half = match::testing::half_block(below, 48);
-    for (auto& v : half.vertices) {
-      if (std::abs(v.z) < static_cast<float>(match::testing::kHalfZ))
-        v.z = 3.0F * std::sin(0.2F * v.x) + std::sin(0.37F * v.x);
-    }
-    return match::prepare(below ? "below" : "above", half, Context{});
-  };
-  const match::Fragment below = moulded(true);
-  const match::Fragment above = moulded(false);
-  const match::Joint joint(below, above);
-  ASSERT_GT(match::strength(joint.agreed_evidence(Rigid{})), 2.0 * match::kEven);
-  EXPECT_LE(match::strength(contact_evidence(Piece(below), Piece(above), Rigid{})), match::kEven + 1e-9);
-
-  const match::Fragment held_below = match::prepare("below", match::testing::half_block(true, 48), Context{});
-  const match::Fragment held_above =
-      match::prepare("above", match::testing::half_block(false, 48), Context{});
-  EXPECT_GT(match::strength(contact_evidence(Piece(held_below), Piece(held_above), Rigid{})),
-            2.0 * match::kEven);
 }
 
 }  // namespace

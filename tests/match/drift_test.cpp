@@ -109,7 +109,7 @@ double bend(double y, double) {
 double strength_of(const Fragment& a, const Fragment& b) {
   const Joint joint(a, b);
   const Rigid at = to_origins(a, b, Rigid{});
-  return strength(weigh(joint.agreed_evidence(at), joint, at));
+  return strength(weigh(joint.agreed_evidence(at), joint, at).evidence);
 }
 
 double drift_of(const Fragment& a, const Fragment& b) {

@@ -50,4 +50,14 @@ inline Fragment flat_half(bool below) {
   return prepare(below ? "below" : "above", half, Context{});
 }
 
+/// Half of a block cut along grooves, as a moulding is run: the same all along y but for ripples.
+inline Fragment grooved_half(bool below, double ripples = 0.0) {
+  mesh::Mesh half = half_block(below, 48);
+  for (auto& v : half.vertices) {
+    if (std::abs(v.z) == static_cast<float>(kHalfZ)) continue;
+    v.z = 3.0F * std::sin(0.2F * v.x) + std::sin(0.37F * v.x) + static_cast<float>(ripples) * std::sin(v.y);
+  }
+  return prepare(below ? "below" : "above", half, Context{});
+}
+
 }  // namespace rejoin::match::testing

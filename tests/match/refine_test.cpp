@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/random.hpp"
+#include "match/judge.hpp"
 #include "match/verify.hpp"
 #include "prepared_pair.hpp"
 
@@ -268,7 +269,7 @@ TEST(Refine, SolidPiecesThatLieLooselyNeedSkinThatGoesOn) {
   const Joint joint(pair.a, pair.b);
   Evidence evidence = joint.agreed_evidence(pair.truth);
   ASSERT_GT(evidence.continuation, 4.0);
-  const auto score = [&] { return score_of(strength(weigh(evidence, joint, pair.truth))); };
+  const auto score = [&] { return score_of(strength(weigh(evidence, joint, pair.truth).evidence)); };
   EXPECT_GT(score(), kSure);
   evidence.shared_area = evidence.contact_area / 0.75;
   EXPECT_GT(score(), kSure);
@@ -293,6 +294,58 @@ TEST(Refine, WhatIsHeldBackStaysARival) {
   EXPECT_GT(strongest_rival(list), 2.0 * kEven);
 }
 
+// A moulded edge in another's step is no less a contact, but holds no pose.
+TEST(Refine, PosesAlongWhichOnePieceSlidesAreEvenAtMost) {
+  const Fragment below = testing::grooved_half(true);
+  const Fragment above = testing::grooved_half(false);
+  const Joint joint(below, above);
+  const Evidence evidence = joint.agreed_evidence(Rigid{});
+  std::vector<Hypothesis> list{{Rigid{}, evidence, strength(evidence)}};
+  list.front().as_rival = list.front().strength;
+  probe_likely(list, joint);
+  EXPECT_TRUE(list.front().evidence.slides);
+  EXPECT_GT(list.front().as_rival, 2.0 * kEven);
+  EXPECT_LE(list.front().strength, kEven);
+  const Judged judged = judge(below, above, to_files(below, above, Rigid{}));
+  EXPECT_TRUE(judged.evidence.slides);
+  EXPECT_LE(strength(judged.evidence), kEven);
+
+  const Pair pair = make_pair(6);
+  const Judged held = judge(pair.a, pair.b, pair.planted.truth);
+  EXPECT_FALSE(held.evidence.slides);
+  EXPECT_GT(strength(held.evidence), 2.0 * kEven);
+}
+
+// Ripples catch a piece that is pushed a little; it fits as well at the next ones.
+TEST(Refine, PosesThatFitAsWellFartherAlongAreEvenAtMost) {
+  const Fragment below = testing::grooved_half(true, 0.4);
+  const Fragment above = testing::grooved_half(false, 0.4);
+  const Joint joint(below, above);
+  Evidence evidence = joint.agreed_evidence(Rigid{});
+  ASSERT_GT(strength(evidence), 2.0 * kEven);
+  const Stability stability = hold_sliding(evidence, joint, Rigid{}).value();
+  EXPECT_LT(stability.slide, 0.5);
+  EXPECT_GT(stability.elsewhere, 0.7);
+  EXPECT_TRUE(evidence.slides);
+  EXPECT_LE(strength(evidence), kEven);
+}
+
+// Run mouldings lie in their likes anywhere; that tells nothing of a break that holds.
+TEST(Refine, WhatSlidesIsNoRivalOfWhatHoldsFirmly) {
+  const auto rival_beside = [](double slide_of_best, bool next_slides) {
+    Hypothesis best;
+    best.strength = best.as_rival = 30.0;
+    best.stability = Stability{.slide = slide_of_best};
+    Hypothesis next = best;
+    next.evidence.slides = next_slides;
+    if (next_slides) next.strength = kEven;
+    return strongest_rival({best, next});
+  };
+  EXPECT_EQ(rival_beside(0.1, true), kEven);
+  EXPECT_EQ(rival_beside(0.1, false), 30.0) << "it holds, too";
+  EXPECT_EQ(rival_beside(0.5, true), 30.0) << "the best holds little better";
+}
+
 // A large contact of which each patch agrees hardly, as of sawn faces whose marks fit a little somewhere.
 TEST(Refine, ManyPatchesThatHardlyAgreeMakeNoSureJoin) {
   const Pair pair = make_pair(6);
@@ -301,7 +354,7 @@ TEST(Refine, ManyPatchesThatHardlyAgreeMakeNoSureJoin) {
   evidence.patch_area = evidence.shared_area / 400.0;
   const auto weighed = [&](double nats_a_patch) {
     evidence.information = evidence.near_information = 400.0 * nats_a_patch;
-    return strength(weigh(evidence, joint, pair.truth));
+    return strength(weigh(evidence, joint, pair.truth).evidence);
   };
   EXPECT_GT(weighed(0.3), 2.0 * kEven);
   EXPECT_LE(weighed(0.1), kEven + 1e-9);

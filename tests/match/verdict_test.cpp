@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/random.hpp"
+#include "match/refine.hpp"
 #include "match/stability.hpp"
 #include "prepared_pair.hpp"
 
@@ -13,8 +14,7 @@ namespace rejoin::match {
 namespace {
 
 using testing::flat_half;
-using testing::half_block;
-using testing::kHalfZ;
+using testing::grooved_half;
 using testing::make_pair;
 using testing::Pair;
 
@@ -32,16 +32,8 @@ TEST(Stability, WavyCutHoldsAndPlaneSlides) {
 
 // Along a break's width, where it is shorter; its length is held by the relief.
 TEST(Stability, PushesWhereTheJointHoldsLeast) {
-  const auto grooved = [](bool below) {
-    mesh::Mesh half = half_block(below, 48);
-    for (auto& v : half.vertices) {
-      if (std::abs(v.z) < static_cast<float>(kHalfZ))
-        v.z = 3.0F * std::sin(0.2F * v.x) + std::sin(0.37F * v.x);
-    }
-    return prepare(below ? "below" : "above", half, Context{});
-  };
-  const Fragment below = grooved(true);
-  const Fragment above = grooved(false);
+  const Fragment below = grooved_half(true);
+  const Fragment above = grooved_half(false);
   const Joint joint(below, above);
   EXPECT_GT(std::abs(joint.least_held(Rigid{}, joint.tolerance()).y), 0.99);
   EXPECT_GT(slide_at(joint, Rigid{}), 0.8);
@@ -78,8 +70,6 @@ TEST(Score, PoseThatAnotherComesNearOrThatTurnsIsNoSureJoin) {
   EXPECT_EQ(verdict_of(1.0, Stability{.margin = 20, .repeat_deg = 4}), Verdict::Unsure);
   EXPECT_EQ(verdict_of(1.0, Stability{.margin = 20, .next_share = 0.5}), Verdict::Join);
   EXPECT_EQ(verdict_of(1.0, Stability{.margin = 20, .next_share = 0.9}), Verdict::Unsure);
-  EXPECT_EQ(verdict_of(1.0, Stability{.margin = 20, .slide = 0.5}), Verdict::Join);
-  EXPECT_EQ(verdict_of(1.0, Stability{.margin = 20, .slide = 0.9}), Verdict::Unsure);
   EXPECT_EQ(verdict_of(0.1, Stability{.margin = 20, .repeat_deg = 0.5}), Verdict::NoJoin);
 }
 
@@ -153,8 +143,9 @@ TEST(Against, TellsWhatKeepsAHighScoreFromBeingAJoin) {
   stability.repeat_deg = 30.0;
   EXPECT_TRUE(tells(against(sound(), 1.0, stability), "30.0 degrees"));
   stability.repeat_deg = 0.5;
-  stability.slide = 0.9;
-  EXPECT_TRUE(tells(against(sound(), 1.0, stability), "slides"));
+  Evidence sliding = at_most_even(sound());
+  sliding.slides = true;
+  EXPECT_TRUE(tells(against(sliding, score_of(strength(sliding)), stability), "slides"));
   EXPECT_TRUE(tells(against(sound(), 0.1, stability), "too little shape"));
 }
 

@@ -84,12 +84,12 @@ TEST(Worn, AlikeBreaksThatAFineScanTellsApartAreNoJoin) {
       [](double x, double y, bool below) { return below ? 0.0 : 0.12 * std::sin(0.14 * x + 0.1 * y); });
   ASSERT_TRUE(tell_wear(pair.a, pair.b));
   const Joint worn = Joint(pair.a, pair.b).worn();
-  EXPECT_GT(score_of(strength(weigh(worn.agreed_evidence(pair.truth), worn, pair.truth))), kSure)
+  EXPECT_GT(score_of(strength(weigh(worn.agreed_evidence(pair.truth), worn, pair.truth).evidence)), kSure)
       << "the larger distances hide it";
   const Result result = match(pair.a, pair.b, {}, Context{});
   ASSERT_FALSE(result.candidates.empty());
   EXPECT_EQ(result.verdict, Verdict::Unsure);
-  EXPECT_LT(judge(pair.a, pair.b, pair.planted.truth).score, kSure);
+  EXPECT_LT(score_of(strength(judge(pair.a, pair.b, pair.planted.truth).evidence)), kSure);
   EXPECT_EQ(result.breaks, Breaks::Fresh);
 }
 

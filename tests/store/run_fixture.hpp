@@ -92,6 +92,7 @@ class RunTest : public ::testing::Test {
     Candidate candidate;
     candidate.score = 0.75;
     candidate.pose = {axis_rotation(glm::normalize(glm::dvec3(1, 2, 3)), 0.7), {1.0 / 3.0, -2e9, 4e-9}};
+    candidate.slides = true;
     candidate.facet_a = 2;
     candidate.gap_median = 0.125;
     return candidate;

@@ -32,6 +32,7 @@ TEST_F(RunTest, WhatIsSavedComesBackToTheLastBit) {
   EXPECT_EQ(candidates[0].rank, 1);
   EXPECT_EQ(candidates[0].pose.rotation, candidate_.pose.rotation);
   EXPECT_EQ(candidates[0].pose.translation, candidate_.pose.translation);
+  EXPECT_TRUE(candidates[0].slides);
   EXPECT_EQ(candidates[0].facet_a, 2);
   EXPECT_EQ(candidates[0].facet_b, -1);
   EXPECT_EQ(candidates[0].gap_median, 0.125);
@@ -200,7 +201,8 @@ TEST_F(RunTest, EarlierSchemaIsReadAndBroughtUpToDateWhenWritten) {
         .exec(
             "ALTER TABLE fragment DROP COLUMN spacing; ALTER TABLE fragment DROP COLUMN noise; "
             "ALTER TABLE fragment DROP COLUMN wall; ALTER TABLE fragment DROP COLUMN pose; "
-            "ALTER TABLE fragment DROP COLUMN facets; PRAGMA user_version = 1");
+            "ALTER TABLE fragment DROP COLUMN facets; ALTER TABLE candidate DROP COLUMN slides; "
+            "PRAGMA user_version = 1");
   };
   as_written_earlier();
   EXPECT_EQ(store::Run::open(folder_).fragments().at(0).wall, 0);
@@ -229,7 +231,7 @@ TEST_F(RunTest, PairsOfAnEarlierSchemaStayWithTheirPosesAndNewOnesMayBeApart) {
     change.exec();
     database.exec(
         "ALTER TABLE fragment DROP COLUMN pose; ALTER TABLE fragment DROP COLUMN facets; "
-        "PRAGMA user_version = 2");
+        "ALTER TABLE candidate DROP COLUMN slides; PRAGMA user_version = 2");
   }
   EXPECT_EQ(store::Run::open(folder_).fragments().at(0).pose, "");
   {
@@ -246,6 +248,19 @@ TEST_F(RunTest, PairsOfAnEarlierSchemaStayWithTheirPosesAndNewOnesMayBeApart) {
   EXPECT_EQ(database.execAndGet("SELECT count(*) FROM pragma_foreign_key_check").getInt(), 0);
   EXPECT_EQ(database.execAndGet("SELECT count(*) FROM ranked").getInt(), 1) << "gone with its fragment";
   EXPECT_EQ(database.execAndGet("SELECT count(*) FROM candidate").getInt(), 1);
+}
+
+TEST_F(RunTest, CandidatesOfAnEarlierSchemaAreReadAsHeld) {
+  make_run();
+  SQLite::Database(folder_ / kFileName, SQLite::OPEN_READWRITE)
+      .exec("ALTER TABLE candidate DROP COLUMN slides; PRAGMA user_version = 3");
+  const auto candidates = [](const store::Run& run) { return run.candidates(run.pairs().at(0)); };
+  const std::vector<Candidate> earlier = candidates(store::Run::open(folder_));
+  ASSERT_EQ(earlier.size(), 1U);
+  EXPECT_FALSE(earlier[0].slides);
+  store::Run run = store::Run::write(folder_);
+  run.save(run.pairs().at(0), {candidate_});
+  EXPECT_TRUE(candidates(store::Run::open(folder_)).at(0).slides);
 }
 
 TEST_F(RunTest, PairsGoThatAreLaidOtherwiseAndNoOthers) {

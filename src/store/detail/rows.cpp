@@ -130,8 +130,15 @@ Stage stage(const std::string& name) {
   return name == "match" ? Stage::Match : Stage::Failed;
 }
 
+std::string candidate_columns(bool slides) {
+  return std::string(
+             "rank, score, m11, m12, m13, m14, m21, m22, m23, m24, m31, m32, m33, m34, m41, m42, m43, m44, "
+             "facet_a, facet_b, depth, slope, raycast, overlap, contact_area, gap_median, penetration, ") +
+         (slides ? "slides" : "0");
+}
+
 std::string placeholders() {
-  const std::string columns = kCandidateColumns;
+  const std::string columns = candidate_columns(true);
   std::string text = ", ?";
   for (const char c : columns) text += c == ',' ? ", ?" : "";
   return text;
@@ -192,6 +199,7 @@ std::optional<Candidate> candidate_from(SQLite::Statement& row) {
   candidate.contact_area = measured(row.getColumn(24));
   candidate.gap_median = measured(row.getColumn(25));
   candidate.penetration = measured(row.getColumn(26));
+  candidate.slides = row.getColumn(27).getInt() != 0;
   return candidate;
 }
 
@@ -207,6 +215,7 @@ void bind_candidate(SQLite::Statement& statement, int first, const Candidate& ca
   statement.bind(next++, candidate.facet_a);
   statement.bind(next++, candidate.facet_b);
   for (const double value : figures(candidate)) bind_measured(statement, next++, value);
+  statement.bind(next, candidate.slides ? 1 : 0);
 }
 
 }  // namespace rejoin::store::detail

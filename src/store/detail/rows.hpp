@@ -13,11 +13,10 @@
 namespace rejoin::store::detail {
 
 /// Columns of candidate_from(), in its order; bind_candidate() binds the same after a and b.
-inline constexpr const char* kCandidateColumns =
-    "rank, score, m11, m12, m13, m14, m21, m22, m23, m24, m31, m32, m33, m34, m41, m42, m43, m44, facet_a, "
-    "facet_b, depth, "
-    "slope, raycast, overlap, contact_area, gap_median, penetration";
-/// ", ?" for each of kCandidateColumns.
+/// \param slides  has_slides() of the database
+std::string candidate_columns(bool slides);
+
+/// ", ?" for each of candidate_columns().
 std::string placeholders();
 
 /// copies() of fragments that may have pairs in the database, under their names and hashes.  In a shard names alone tell which stands

@@ -68,6 +68,7 @@ CREATE TABLE candidate (
   facet_a INTEGER NOT NULL,
   facet_b INTEGER NOT NULL,
   depth REAL, slope REAL, raycast REAL, overlap REAL, contact_area REAL, gap_median REAL, penetration REAL,
+  slides INTEGER NOT NULL DEFAULT 0,
   PRIMARY KEY (a, b, rank),
   FOREIGN KEY (a, b) REFERENCES pair ON DELETE CASCADE
 ) WITHOUT ROWID;
@@ -81,7 +82,7 @@ CREATE VIEW ranked AS
   ORDER BY p.score DESC, x.name, y.name;
 )sql";
 
-int pragma(SQLite::Database& database, const char* name) {
+int pragma(SQLite::Database& database, const std::string& name) {
   return database.execAndGet(fmt::format("PRAGMA {}", name)).getInt();
 }
 
@@ -101,6 +102,9 @@ std::string add_hints() {
          "ALTER TABLE pair_with_apart RENAME TO pair;" +
          kLooksAtPairs;
 }
+
+/// From schema 3 to 4.
+constexpr const char* kAddSlides = "ALTER TABLE candidate ADD COLUMN slides INTEGER NOT NULL DEFAULT 0";
 
 constexpr const char* kGiveARun = "give the folder that rejoin batch wrote";
 
@@ -163,6 +167,7 @@ void bring_up_to_date(SQLite::Database& database) {
   SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
   if (!has_lengths(database)) database.exec(kAddLengths);
   if (!has_hints(database)) database.exec(add_hints());
+  if (!has_slides(database)) database.exec(kAddSlides);
   database.exec(fmt::format("PRAGMA user_version = {}", kSchemaVersion));
   transaction.commit();
 }
@@ -173,6 +178,10 @@ bool has_lengths(SQLite::Database& database) {
 
 bool has_hints(SQLite::Database& database) {
   return pragma(database, "user_version") >= 3;
+}
+
+bool has_slides(SQLite::Database& database, const std::string& name) {
+  return pragma(database, name + ".user_version") >= 4;
 }
 
 std::filesystem::path database_file(const std::filesystem::path& folder) {

@@ -11,7 +11,7 @@
 namespace rejoin::store::detail {
 
 /// Raised whenever a table changes its meaning; kept in PRAGMA user_version.
-inline constexpr int kSchemaVersion = 3;
+inline constexpr int kSchemaVersion = 4;
 inline constexpr int kOldestSchema = 1;  ///< that is still read
 
 /// How long to wait while a reader's checkpoint or a copy holds the file.
@@ -31,6 +31,10 @@ bool has_lengths(SQLite::Database& database);
 
 /// Whether fragments have what the user knows of them, pose and facets, and pairs may be apart, as from schema 3 on.
 bool has_hints(SQLite::Database& database);
+
+/// Whether candidates tell whether one piece slides along the other, as from schema 4 on.
+/// \param name  under which the database was attached
+bool has_slides(SQLite::Database& database, const std::string& name = "main");
 
 /// The database of a run's folder, or the file itself.
 std::filesystem::path database_file(const std::filesystem::path& folder);
