@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "match/refine.hpp"
+
 namespace rejoin::match {
 namespace {
 
@@ -19,13 +21,16 @@ constexpr int kFewest = 24;      // samples: an alignment by half of them takes 
 double left_elsewhere(const Joint& joint, const Rigid& pose, const glm::dvec3& on_b,
                       const glm::dvec3& along) {
   const double t = joint.tolerance();
-  const double here = strength(joint.agreed_evidence(pose));
+  const auto worth = [&joint](const Rigid& at) {
+    return weigh(joint.agreed_evidence(at), joint, at).as_rival;
+  };
+  const double here = worth(pose);
   double most = 0.0;
   for (const double side : {-1.0, 1.0}) {
     const Rigid pushed = Rigid{glm::dmat3(1.0), side * kFar * t * along} * pose;
     const Rigid end = joint.align(pushed, {2.0 * kPush * t, 1.0 * t, 15, 0});
     const bool went_back = glm::dot(end(on_b) - pose(on_b), side * along) < kStays * kFar * t;
-    if (!went_back) most = std::max(most, strength(joint.agreed_evidence(end)));
+    if (!went_back) most = std::max(most, worth(end));
   }
   return here > 0.0 ? most / here : 0.0;
 }

@@ -18,7 +18,7 @@ constexpr double kSlope = 0.75;     // strength that multiplies the odds by e
 constexpr double kAhead = 11.0;     // log-odds of a sure join over those of the pair's next pose, at least
 constexpr double kNext = 0.8;       // of the strength of a sure join, that of the pair's next pose, at most
 constexpr double kRounding = 1e-6;  // strength: what at_most_even() held back has kEven
-constexpr double kLike = 0.5;       // of its strength, what it leaves at most farther along
+constexpr double kLike = 0.8;       // of its strength, what it leaves at most farther along
 constexpr double kHeld = 0.6;  // of the distance between two pushed poses, what a sure join leaves at most
 
 /// Whether the pair's next pose comes near: of large joints equal poses differ by more than kAhead by chance.
