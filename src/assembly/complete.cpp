@@ -114,7 +114,7 @@ class Completer {
     if (score < kLikely) return std::nullopt;
     // No search told what else these two would do, nor was it probed: the pairs it follows from bear witness.
     const Rigid pose = match::to_files(a.fragment(), b.fragment(), fine);
-    const Link link{guess.a, guess.b, pose, score, false, found.evidence.slides};
+    const Link link{guess.a, guess.b, pose, score, false, found.evidence.doubt == match::Doubt::Slide};
     const bool stayed = same_pose(a, b, guess.pose, link.pose, options_);
     if (!stayed || is_known(link) || interpenetrate(a, b, link.pose)) return std::nullopt;
     return link;

@@ -430,7 +430,9 @@ bool drifts(const Evidence& evidence) {
 }
 
 Evidence told_by_scale(Evidence evidence, const Scales& scales) {
-  const double part = std::min(1.0, scales.share / kSmallestShare);
+  const double by_scale = std::min(1.0, scales.share / kSmallestShare);
+  const double independent = scales.drift > kDrift ? 1.0 / scales.drift : 1.0;
+  const double part = by_scale * independent;
   evidence.information *= part * part;
   evidence.near_information *= part * part;
   evidence.drift = scales.drift;

@@ -19,6 +19,16 @@ inline constexpr double kNear = 2.0;
 /// \return infinite without samples
 double median_gap(std::vector<double> gaps);
 
+/// Why a pose is held back: it is as likely as not at most.
+enum class Doubt {
+  None,
+  Walls,  ///< may_be_walls()
+  Loose,  ///< lies_loosely()
+  Faint,  ///< hardly_agrees()
+  Drift,  ///< drifts()
+  Slide,  ///< one piece along the other: hold_sliding()
+};
+
 /// What speaks for a joint and what against it, at one pose.  Areas in squared mesh units.
 struct Evidence {
   double contact_area = 0;  ///< B's broken surface that faces A's within the tolerance
@@ -46,8 +56,8 @@ struct Evidence {
   double continuation = 0;
   double drift = 1;         ///< Scales::drift and Scales::spread, once told_by_scale() was asked
   double drift_spread = 0;  ///< mesh units
-  bool slides = false;      ///< one piece along the other, once hold_sliding() was asked
-  double tolerance = 0;     ///< distance below which the surfaces touch, mesh units
+  Doubt doubt = Doubt::None;
+  double tolerance = 0;  ///< distance below which the surfaces touch, mesh units
   /// Gap spread that the scans' errors explain at most, or that tells nothing, mesh units; infinite where these are not known.
   double explained = std::numeric_limits<double>::infinity();
   glm::dvec3 normal{0.0};  ///< mean outward normal of A's shared surface, unit; 0 without any

@@ -25,7 +25,7 @@ constexpr std::size_t kShare =
 constexpr int kHalvings = 40;
 constexpr double kNoLimit = -std::numeric_limits<double>::infinity();
 constexpr double kFirm =
-    0.3;  // Stability::slide of the best pose beside which those that slide are no rivals
+    0.3;  // Stability::slide and elsewhere of the best pose beside which those that slide are no rivals
 
 void sort_by_rank(std::vector<Hypothesis>& list) {
   std::stable_sort(list.begin(), list.end(), [](const Hypothesis& x, const Hypothesis& y) {
@@ -84,12 +84,12 @@ Evidence told(const Evidence& evidence, const Joint& joint, const Rigid& pose) {
   return strength(evidence) > 0.0 ? told_by_scale(evidence, joint.scales(pose)) : evidence;
 }
 
-/// Held back where what touches may be walls, solid pieces lie loosely on each other, hardly any shape agrees, or gaps drift.
-Evidence held_back(const Evidence& evidence, const Joint& joint) {
-  const bool solid = joint.thickness() <= 0.0;
-  const bool doubtful = may_be_walls(evidence) || (solid && lies_loosely(evidence)) ||
-                        hardly_agrees(evidence) || drifts(evidence);
-  return doubtful ? at_most_even(evidence) : evidence;
+/// What holds a pose back as it stands.
+Doubt doubt_of(const Evidence& evidence, bool solid) {
+  if (may_be_walls(evidence)) return Doubt::Walls;
+  if (solid && lies_loosely(evidence)) return Doubt::Loose;
+  if (hardly_agrees(evidence)) return Doubt::Faint;
+  return drifts(evidence) ? Doubt::Drift : Doubt::None;
 }
 
 }  // namespace
@@ -206,7 +206,8 @@ bool hardly_agrees(const Evidence& evidence) {
   return std::max(evidence.information, evidence.near_information) < kLeastAgreement * patches;
 }
 
-Evidence at_most_even(const Evidence& evidence) {
+Evidence at_most_even(Evidence evidence, Doubt doubt) {
+  evidence.doubt = doubt;
   if (strength(evidence) <= kEven) return evidence;
   const auto with = [&](double part) {
     Evidence held = evidence;
@@ -225,7 +226,8 @@ Evidence at_most_even(const Evidence& evidence) {
 
 Weighed weigh(const Evidence& evidence, const Joint& joint, const Rigid& pose) {
   const Evidence all = told(evidence, joint, pose);
-  return {held_back(all, joint), strength(all)};
+  const Doubt doubt = doubt_of(all, joint.thickness() <= 0.0);
+  return {doubt == Doubt::None ? all : at_most_even(all, doubt), strength(all)};
 }
 
 void weigh(std::vector<Hypothesis>& list, const Joint& joint) {
@@ -245,8 +247,7 @@ std::optional<Stability> hold_sliding(Evidence& evidence, const Joint& joint, co
   const auto stability = probe(joint, pose, evidence);
   if (!stability || !slides(*stability)) return stability;
   evidence.continuation = 0.0;  // of what is drawn along a line the skin goes on wherever it lies
-  evidence = at_most_even(evidence);
-  evidence.slides = true;
+  evidence = at_most_even(evidence, Doubt::Slide);
   return stability;
 }
 
@@ -265,10 +266,11 @@ void probe_likely(std::vector<Hypothesis>& list, const Joint& joint) {
 double strongest_rival(const std::vector<Hypothesis>& list) {
   if (list.empty()) return 0.0;
   const std::optional<Stability>& best = list.front().stability;
-  const bool firm = best && best->slide < kFirm;
+  const bool firm = best && best->slide < kFirm && best->elsewhere < kFirm;
   double most = 0.0;
   for (std::size_t k = 1; k < list.size(); ++k)
-    most = std::max(most, firm && list[k].evidence.slides ? list[k].strength : list[k].as_rival);
+    most =
+        std::max(most, firm && list[k].evidence.doubt == Doubt::Slide ? list[k].strength : list[k].as_rival);
   return most;
 }
 

@@ -68,8 +68,8 @@ bool lies_loosely(const Evidence& evidence);
 /// other and the best of many poses fits their marks a little.
 bool hardly_agrees(const Evidence& evidence);
 
-/// The evidence with at most as much information as leaves a joint as likely as not.
-Evidence at_most_even(const Evidence& evidence);
+/// The evidence with that doubt, and at most as much information as leaves a joint as likely as not.
+Evidence at_most_even(Evidence evidence, Doubt doubt);
 
 /// The evidence of a pose, weighed.
 struct Weighed {

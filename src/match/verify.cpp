@@ -18,7 +18,7 @@ constexpr double kSlope = 0.75;     // strength that multiplies the odds by e
 constexpr double kAhead = 11.0;     // log-odds of a sure join over those of the pair's next pose, at least
 constexpr double kNext = 0.8;       // of the strength of a sure join, that of the pair's next pose, at most
 constexpr double kRounding = 1e-6;  // strength: what at_most_even() held back has kEven
-constexpr double kLike = 0.8;       // of its strength, what it leaves at most farther along
+constexpr double kLike = 0.5;       // of its strength, what it leaves at most farther along
 constexpr double kHeld = 0.6;  // of the distance between two pushed poses, what a sure join leaves at most
 
 /// Whether the pair's next pose comes near: of large joints equal poses differ by more than kAhead by chance.
@@ -30,6 +30,27 @@ std::string told_rival(const Stability& stability) {
   if (stability.next_share > kNext) return "another pose of the two is nearly as good";
   return fmt::format("another pose of the two is {:.2f} behind in log-odds, and {:.0f} are asked for a join",
                      stability.margin, kAhead);
+}
+
+/// Why a pose is no likelier, for users.
+std::string told_doubt(const Evidence& evidence) {
+  switch (evidence.doubt) {
+    case Doubt::Walls:
+      return "what touches has nothing behind it in either scan: it may be walls";
+    case Doubt::Loose:
+      return "much of what lies on the other piece does not touch it, and hardly any skin goes on beside it";
+    case Doubt::Faint:
+      return "of each part of the break hardly any shape agrees: its size alone speaks for it";
+    case Doubt::Drift:
+      return fmt::format(
+          "the gap drifts over the break, by {:.2g}, and the scans stray by less: these are alike, or worn",
+          evidence.drift_spread);
+    case Doubt::Slide:
+      return "one piece slides along the other: nothing holds it there";
+    case Doubt::None:
+      break;
+  }
+  return {};
 }
 
 /// Not shifted but by a part of a pixel, so that as many pixels are covered as if nothing were cut off at the view's sides.
@@ -66,12 +87,8 @@ std::string against(const Evidence& evidence, double score, const std::optional<
     if (has_rival(*stability)) return told_rival(*stability);
     return fmt::format("either half of the break turns the pose by {:.1f} degrees", stability->repeat_deg);
   }
-  if (drifts(evidence) && std::abs(strength(evidence) - kEven) < kRounding) {
-    return fmt::format(
-        "the gap drifts over the break, by {:.2g}, and the scans stray by less: these are alike, or worn",
-        evidence.drift_spread);
-  }
-  if (evidence.slides) return "one piece slides along the other: nothing holds it there";
+  if (evidence.doubt != Doubt::None && std::abs(strength(evidence) - kEven) < kRounding)
+    return told_doubt(evidence);
   const std::string found = objection(evidence);
   return found.empty() ? "the breaks have too little shape in common" : found;
 }
@@ -81,7 +98,7 @@ Candidate unmeasured(const Fragment& a, const Fragment& b, const Rigid& pose, co
   Candidate c;
   c.pose = to_files(a, b, pose);
   c.score = score_of(strength);
-  c.slides = evidence.slides;
+  c.slides = evidence.doubt == Doubt::Slide;
   c.error.contact_area = evidence.contact_area;
   c.error.gap_median = evidence.gap_median;
   const double over = std::max(evidence.contact_area, evidence.penetration_area);

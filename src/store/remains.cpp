@@ -10,6 +10,12 @@
 namespace rejoin::store {
 namespace {
 
+std::string ended_early(std::size_t pairs, std::size_t all) {
+  return fmt::format(
+      "{} of its {} looked hopeless soon and {} not searched in full (rejoin batch --thorough does)", pairs,
+      counted(all, "pair"), pairs == 1 ? "was" : "were");
+}
+
 std::string not_compared(std::size_t missing, const char* of, std::size_t all) {
   return fmt::format("{} of {}{} {} not compared yet", missing, of, counted(all, "pair"),
                      missing == 1 ? "is" : "are");
@@ -21,6 +27,7 @@ Remains remains(const Run& run) {
   const std::vector<Fragment> fragments = run.fragments();
   const std::map<std::string, std::string> left_out = run.copies();
   std::map<std::int64_t, std::size_t> missing;  // by id
+  std::map<std::int64_t, std::size_t> early;
   const std::size_t count = fragments.size() - left_out.size();
   Remains result;
   result.shard = run.shard();
@@ -35,10 +42,15 @@ Remains remains(const Run& run) {
     --a->second;
     --b->second;
     --result.missing;
+    if (pair.stage != Stage::Sweep) continue;
+    ++early[pair.a];
+    ++early[pair.b];
   }
   for (const Fragment& fragment : fragments) {
     const auto at = missing.find(fragment.id);
     if (at != missing.end() && at->second > 0) result.missing_of[fragment.name] = at->second;
+    const auto soon = early.find(fragment.id);
+    if (soon != early.end()) result.ended_early_of[fragment.name] = soon->second;
   }
   return result;
 }
@@ -56,10 +68,13 @@ std::string told(const Remains& remains) {
 
 std::string told(const Remains& remains, const std::string& fragment) {
   const auto at = remains.missing_of.find(fragment);
-  if (at == remains.missing_of.end()) return "";
-  if (at->second == remains.pairs_each)
+  const auto soon = remains.ended_early_of.find(fragment);
+  if (at != remains.missing_of.end() && at->second == remains.pairs_each)
     return fmt::format("none of its {} is compared yet", counted(at->second, "pair"));
-  return not_compared(at->second, "its ", remains.pairs_each);
+  std::string text;
+  if (at != remains.missing_of.end()) text = not_compared(at->second, "its ", remains.pairs_each);
+  if (soon == remains.ended_early_of.end()) return text;
+  return text + (text.empty() ? "" : "; ") + ended_early(soon->second, remains.pairs_each);
 }
 
 bool is_compared(const Remains& remains, const std::string& fragment) {

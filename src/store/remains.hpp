@@ -1,4 +1,4 @@
-/// What of a run is still to be compared.
+/// What of a run is still to be compared, or was not searched in full.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,9 @@ struct Remains {
   std::size_t missing = 0;     ///< of those; the failed are not missing
   std::size_t pairs_each = 0;  ///< of one fragment with all others
   std::map<std::string, std::size_t> missing_of;  ///< by fragment, where any is missing
-  std::string shard;                              ///< as Run::shard()
+  std::map<std::string, std::size_t>
+      ended_early_of;  ///< pairs of a fragment that looked hopeless soon, where there are any
+  std::string shard;   ///< as Run::shard()
 };
 
 /// \throws StoreError the database cannot be read
@@ -23,7 +25,7 @@ Remains remains(const Run& run);
 /// A sentence without its full stop; empty if nothing is missing and the run is no shard.
 std::string told(const Remains& remains);
 
-/// The same of one fragment: "5 of its 8 pairs are not compared yet".
+/// The same of one fragment: "5 of its 8 pairs are not compared yet"; and how many were not searched in full.
 std::string told(const Remains& remains, const std::string& fragment);
 
 /// Whether any pair of the fragment is compared; of one that the database does not know, too.

@@ -124,6 +124,17 @@ TEST(Drift, IsMoreWhereOneSideBendsAwayFromTheOther) {
   EXPECT_GT(drift_of(prepared(part(true, ripples)), prepared(part(false, ripples, bend))), 1.6);
 }
 
+// Gaps that drift are alike over several patches, which tell less than as many independent ones.
+TEST(Drift, LeavesLessInformation) {
+  Evidence evidence;
+  evidence.information = 40.0;
+  evidence.near_information = 20.0;
+  const auto told = [&](double drift) { return told_by_scale(evidence, {.share = 1.0, .drift = drift}); };
+  EXPECT_EQ(told(1.2).information, 40.0) << "as chance has it of one break";
+  EXPECT_DOUBLE_EQ(told(2.0).information, 10.0);
+  EXPECT_DOUBLE_EQ(told(2.0).near_information, 5.0);
+}
+
 // As a scan that is off by 1 % in scale: no sides of two breaks differ so.
 TEST(Drift, IsNoneOfScansThatBend) {
   const auto bow = [](double y, double) { return 0.0006 * y * y; };

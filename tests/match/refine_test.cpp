@@ -303,16 +303,16 @@ TEST(Refine, PosesAlongWhichOnePieceSlidesAreEvenAtMost) {
   std::vector<Hypothesis> list{{Rigid{}, evidence, strength(evidence)}};
   list.front().as_rival = list.front().strength;
   probe_likely(list, joint);
-  EXPECT_TRUE(list.front().evidence.slides);
+  EXPECT_EQ(list.front().evidence.doubt, Doubt::Slide);
   EXPECT_GT(list.front().as_rival, 2.0 * kEven);
   EXPECT_LE(list.front().strength, kEven);
   const Judged judged = judge(below, above, to_files(below, above, Rigid{}));
-  EXPECT_TRUE(judged.evidence.slides);
+  EXPECT_EQ(judged.evidence.doubt, Doubt::Slide);
   EXPECT_LE(strength(judged.evidence), kEven);
 
   const Pair pair = make_pair(6);
   const Judged held = judge(pair.a, pair.b, pair.planted.truth);
-  EXPECT_FALSE(held.evidence.slides);
+  EXPECT_EQ(held.evidence.doubt, Doubt::None);
   EXPECT_GT(strength(held.evidence), 2.0 * kEven);
 }
 
@@ -326,7 +326,7 @@ TEST(Refine, PosesThatFitAsWellFartherAlongAreEvenAtMost) {
   const Stability stability = hold_sliding(evidence, joint, Rigid{}).value();
   EXPECT_LT(stability.slide, 0.5);
   EXPECT_GT(stability.elsewhere, 0.7);
-  EXPECT_TRUE(evidence.slides);
+  EXPECT_EQ(evidence.doubt, Doubt::Slide);
   EXPECT_LE(strength(evidence), kEven);
 }
 
@@ -337,8 +337,10 @@ TEST(Refine, WhatSlidesIsNoRivalOfWhatHoldsFirmly) {
     best.strength = best.as_rival = 30.0;
     best.stability = Stability{.slide = slide_of_best};
     Hypothesis next = best;
-    next.evidence.slides = next_slides;
-    if (next_slides) next.strength = kEven;
+    if (next_slides) {
+      next.evidence.doubt = Doubt::Slide;
+      next.strength = kEven;
+    }
     return strongest_rival({best, next});
   };
   EXPECT_EQ(rival_beside(0.1, true), kEven);

@@ -143,9 +143,14 @@ TEST(Against, TellsWhatKeepsAHighScoreFromBeingAJoin) {
   stability.repeat_deg = 30.0;
   EXPECT_TRUE(tells(against(sound(), 1.0, stability), "30.0 degrees"));
   stability.repeat_deg = 0.5;
-  Evidence sliding = at_most_even(sound());
-  sliding.slides = true;
-  EXPECT_TRUE(tells(against(sliding, score_of(strength(sliding)), stability), "slides"));
+  for (const auto& [doubt, words] : {std::pair{Doubt::Walls, "walls"},
+                                     {Doubt::Loose, "does not touch"},
+                                     {Doubt::Faint, "hardly any shape"},
+                                     {Doubt::Drift, "drifts"},
+                                     {Doubt::Slide, "slides"}}) {
+    const Evidence held = at_most_even(sound(), doubt);
+    EXPECT_TRUE(tells(against(held, score_of(strength(held)), stability), words)) << words;
+  }
   EXPECT_TRUE(tells(against(sound(), 0.1, stability), "too little shape"));
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "run_fixture.hpp"
+#include "store/remains.hpp"
 
 namespace rejoin::store {
 namespace {
@@ -248,6 +249,24 @@ TEST_F(RunTest, PairsOfAnEarlierSchemaStayWithTheirPosesAndNewOnesMayBeApart) {
   EXPECT_EQ(database.execAndGet("SELECT count(*) FROM pragma_foreign_key_check").getInt(), 0);
   EXPECT_EQ(database.execAndGet("SELECT count(*) FROM ranked").getInt(), 1) << "gone with its fragment";
   EXPECT_EQ(database.execAndGet("SELECT count(*) FROM candidate").getInt(), 1);
+}
+
+TEST_F(RunTest, PairsThatWereNotSearchedInFullAreTold) {
+  make_run();
+  store::Run run = store::Run::write(folder_);
+  Pair soon = pair_of(run.fragments(), 1, 2);
+  soon.stage = Stage::Sweep;
+  run.save(soon, {});
+  const std::vector<Fragment> fragments = run.fragments();
+  const auto told_of = [&](std::size_t k) { return told(remains(run), fragments[k].name); };
+  EXPECT_EQ(told_of(0), "1 of its 2 pairs is not compared yet");
+  EXPECT_EQ(
+      told_of(1),
+      "1 of its 2 pairs looked hopeless soon and was not searched in full (rejoin batch --thorough does)");
+  EXPECT_EQ(told_of(2),
+            "1 of its 2 pairs is not compared yet; 1 of its 2 pairs looked hopeless soon and was not "
+            "searched in full "
+            "(rejoin batch --thorough does)");
 }
 
 TEST_F(RunTest, CandidatesOfAnEarlierSchemaAreReadAsHeld) {
