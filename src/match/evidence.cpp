@@ -48,9 +48,11 @@ constexpr std::array kScales{1.5,
                              3.0};      // patches: radii of the surroundings that tell small shape from large
 constexpr double kSmallestShare = 0.4;  // of the information, by scales: right poses have as much
 constexpr double kDrift = 1.25;         // of sides of one break at most, if the scans are true
-constexpr double kHalf = 0.5;           // of the shape's worth: what takes that is told
-constexpr double kNearCosts = 6.0;      // strength: within kNear tolerances more fits by chance
-constexpr double kNearPart = 0.6;       // of what counts there, at most: of exact scans the tolerance decides
+constexpr double kDrifting =
+    0.6;                       // of the information, what is left where gaps are alike over several patches
+constexpr double kHalf = 0.5;  // of the shape's worth: what takes that is told
+constexpr double kNearCosts = 6.0;  // strength: within kNear tolerances more fits by chance
+constexpr double kNearPart = 0.6;   // of what counts there, at most: of exact scans the tolerance decides
 constexpr double kNoLimit = -std::numeric_limits<double>::infinity();
 
 /// Looks from B's samples to A.
@@ -431,10 +433,9 @@ bool drifts(const Evidence& evidence) {
 
 Evidence told_by_scale(Evidence evidence, const Scales& scales) {
   const double by_scale = std::min(1.0, scales.share / kSmallestShare);
-  const double independent = scales.drift > kDrift ? 1.0 / scales.drift : 1.0;
-  const double part = by_scale * independent;
-  evidence.information *= part * part;
-  evidence.near_information *= part * part;
+  const double part = by_scale * by_scale * (scales.drift > kDrift ? kDrifting : 1.0);
+  evidence.information *= part;
+  evidence.near_information *= part;
   evidence.drift = scales.drift;
   evidence.drift_spread = scales.spread;
   return evidence;

@@ -131,8 +131,8 @@ TEST(Drift, LeavesLessInformation) {
   evidence.near_information = 20.0;
   const auto told = [&](double drift) { return told_by_scale(evidence, {.share = 1.0, .drift = drift}); };
   EXPECT_EQ(told(1.2).information, 40.0) << "as chance has it of one break";
-  EXPECT_DOUBLE_EQ(told(2.0).information, 10.0);
-  EXPECT_DOUBLE_EQ(told(2.0).near_information, 5.0);
+  EXPECT_DOUBLE_EQ(told(2.0).information, 24.0);
+  EXPECT_DOUBLE_EQ(told(2.0).near_information, 12.0);
 }
 
 // As a scan that is off by 1 % in scale: no sides of two breaks differ so.
