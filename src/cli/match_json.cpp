@@ -26,12 +26,9 @@ ordered_json error_json(const match::JointError& error) {
 }
 
 ordered_json stability_json(const match::Stability& stability) {
-  return {{"margin", stability.margin},
-          {"next_share", stability.next_share},
-          {"repeat_deg", stability.repeat_deg},
-          {"repeat_shift", stability.repeat_shift},
-          {"slide", stability.slide},
-          {"elsewhere", stability.elsewhere}};
+  return {{"margin", stability.margin},         {"next_share", stability.next_share},
+          {"repeat_deg", stability.repeat_deg}, {"repeat_shift", stability.repeat_shift},
+          {"slide", stability.slide},           {"elsewhere", stability.elsewhere}};
 }
 
 ordered_json fragment_json(const match::Fragment& fragment) {
