@@ -431,11 +431,17 @@ bool drifts(const Evidence& evidence) {
   return evidence.drift > kDrift && evidence.drift_spread > evidence.explained;
 }
 
+Evidence with_fewer_patches(Evidence evidence) {
+  if (evidence.drift <= kDrift) return evidence;
+  evidence.information *= kDrifting;
+  evidence.near_information *= kDrifting;
+  return evidence;
+}
+
 Evidence told_by_scale(Evidence evidence, const Scales& scales) {
-  const double by_scale = std::min(1.0, scales.share / kSmallestShare);
-  const double part = by_scale * by_scale * (scales.drift > kDrift ? kDrifting : 1.0);
-  evidence.information *= part;
-  evidence.near_information *= part;
+  const double part = std::min(1.0, scales.share / kSmallestShare);
+  evidence.information *= part * part;
+  evidence.near_information *= part * part;
   evidence.drift = scales.drift;
   evidence.drift_spread = scales.spread;
   return evidence;

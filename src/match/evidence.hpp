@@ -54,10 +54,10 @@ struct Evidence {
   double wall_share = 1;
   /// Solid pieces, all samples looked at: skin around the contact that goes on across its border, in patches.  0 for thin ones.
   double continuation = 0;
-  double drift = 1;         ///< Scales::drift and Scales::spread, once told_by_scale() was asked
-  double drift_spread = 0;  ///< mesh units
-  Doubt doubt = Doubt::None;
-  double tolerance = 0;  ///< distance below which the surfaces touch, mesh units
+  double drift = 1;           ///< Scales::drift and Scales::spread, once told_by_scale() was asked
+  double drift_spread = 0;    ///< mesh units
+  Doubt doubt = Doubt::None;  ///< once weigh()ed
+  double tolerance = 0;       ///< distance below which the surfaces touch, mesh units
   /// Gap spread that the scans' errors explain at most, or that tells nothing, mesh units; infinite where these are not known.
   double explained = std::numeric_limits<double>::infinity();
   glm::dvec3 normal{0.0};  ///< mean outward normal of A's shared surface, unit; 0 without any
@@ -95,6 +95,10 @@ Evidence told_by_scale(Evidence evidence, const Scales& scales);
 /// Whether the gaps drift by more than the scans' errors explain, as where parts of one form broke alike, and where breaks are worn.
 /// \source docs/scoring.md
 bool drifts(const Evidence& evidence);
+
+/// The evidence with less information where gaps drift, whatever explains it: they are alike over several patches then.
+/// \pre told_by_scale()
+Evidence with_fewer_patches(Evidence evidence);
 
 /// What poses of one pair are ordered by: the strength, and a little for every patch that touches.  The strength of weak poses may
 /// be chance, and of these the right ones have more contact.  Says nothing across pairs.

@@ -227,7 +227,7 @@ Evidence at_most_even(Evidence evidence, Doubt doubt) {
 Weighed weigh(const Evidence& evidence, const Joint& joint, const Rigid& pose) {
   const Evidence all = told(evidence, joint, pose);
   const Doubt doubt = doubt_of(all, joint.thickness() <= 0.0);
-  return {doubt == Doubt::None ? all : at_most_even(all, doubt), strength(all)};
+  return {doubt == Doubt::None ? with_fewer_patches(all) : at_most_even(all, doubt), strength(all)};
 }
 
 void weigh(std::vector<Hypothesis>& list, const Joint& joint) {

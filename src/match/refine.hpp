@@ -78,7 +78,7 @@ struct Weighed {
 };
 
 /// The evidence of a pose with less information where it would say too much: where only large, smooth shape agrees, loosely
-/// (told_by_scale()), and where what touches may be walls, solid pieces lie loosely on each other, hardly any shape agrees, or gaps drift: such a joint is
+/// (told_by_scale()), where gaps drift (with_fewer_patches()), and where what touches may be walls, solid pieces lie loosely on each other, hardly any shape agrees, or gaps drift by more than the scans explain: such a joint is
 /// at most as likely as not.
 /// \param evidence  joint.agreed_evidence(pose)
 /// \source docs/scoring.md

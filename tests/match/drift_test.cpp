@@ -126,13 +126,12 @@ TEST(Drift, IsMoreWhereOneSideBendsAwayFromTheOther) {
 
 // Gaps that drift are alike over several patches, which tell less than as many independent ones.
 TEST(Drift, LeavesLessInformation) {
-  Evidence evidence;
-  evidence.information = 40.0;
-  evidence.near_information = 20.0;
-  const auto told = [&](double drift) { return told_by_scale(evidence, {.share = 1.0, .drift = drift}); };
-  EXPECT_EQ(told(1.2).information, 40.0) << "as chance has it of one break";
-  EXPECT_DOUBLE_EQ(told(2.0).information, 24.0);
-  EXPECT_DOUBLE_EQ(told(2.0).near_information, 12.0);
+  const auto left = [](double drift) {
+    return with_fewer_patches({.information = 40.0, .near_information = 20.0, .drift = drift});
+  };
+  EXPECT_EQ(left(1.2).information, 40.0) << "as chance has it of one break";
+  EXPECT_DOUBLE_EQ(left(2.0).information, 24.0);
+  EXPECT_DOUBLE_EQ(left(2.0).near_information, 12.0);
 }
 
 // As a scan that is off by 1 % in scale: no sides of two breaks differ so.
