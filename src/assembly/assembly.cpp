@@ -316,13 +316,13 @@ class Assembler {
       return named("its best join is one that must not be: with");
     if (best->score < match::kPossible)
       return fmt::format("nothing fits it: its best score with another fragment is {:.3f}", best->score);
+    if (best->slides)
+      return named("no join is sure: the best is with") + ", and one slides along the other there";
     if (best->holds || best->score < options_.sure) return named("no join is sure: the best is with");
     if (static_cast<std::size_t>(best - links_.data()) >= given_)
       return named("no join is sure: the best follows from two other pairs alone, with");
     return named("no join is sure: the best is with") +
-           ", but another pose of the two comes near, parts of their surfaces disagree on the pose, or one "
-           "slides "
-           "along the other";
+           ", but another pose of the two comes near, or parts of their surfaces disagree on the pose";
   }
 
   /// Sure joins between two objects that cannot lie as they say, the strongest of each two: often a second scan of pieces makes an

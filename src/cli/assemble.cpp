@@ -27,17 +27,17 @@
 namespace rejoin::cli {
 namespace {
 
-std::string summary(const AssembleInput& input, const assembly::Result& result) {
+/// \param sure  score of a join that needs no witness
+std::string summary(const AssembleInput& input, const assembly::Result& result, double sure) {
   std::size_t placed = 0;
   for (const assembly::Placement& placement : result.placements) placed += placement.group >= 0 ? 1 : 0;
   std::string text = fmt::format(
       "{} of {} placed, {}, {}\n", placed, counted(input.names.size() + input.bad.size(), "fragment"),
       counted(static_cast<std::size_t>(result.groups), "object"), counted(result.joins.size(), "join"));
   for (const assembly::Join& join : result.joins) {
-    text +=
-        fmt::format("  {} + {}: {}, contact {:.4g}\n", input.names[join.a], input.names[join.b],
-                    fmt::format("{} {:.3f}", join.found ? "found by contact, score" : "score", join.score),
-                    join.contact_area);
+    text += fmt::format("  {} + {}: {} {:.3f}, contact {:.4g}{}\n", input.names[join.a], input.names[join.b],
+                        join.found ? "found by contact, score" : "score", join.score, join.contact_area,
+                        join.found || join.score >= sure ? "" : "; others bear it out");
   }
   for (std::size_t k = 0; k < input.names.size(); ++k) {
     if (result.placements[k].group >= 0) continue;
@@ -103,7 +103,7 @@ class AssembleCommand final : public Command {
     console.end_progress();
     for (const std::string& warning : warnings_of(input, result)) console.warning(warning);
     if (result.cancelled) console.warning("interrupted; what follows is less than possible");
-    console.result(summary(input, result));
+    console.result(summary(input, result, options_.sure));
     if (out_ && !result.cancelled) {
       write_all(files, input, result, console);
     } else {

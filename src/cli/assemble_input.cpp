@@ -143,7 +143,7 @@ AssembleInput read_run(const fs::path& folder, Console& console, const Context& 
     const std::vector<store::Candidate> candidates = run.candidates(pair);
     if (candidates.empty()) input.without_pose[std::minmax(a->second, b->second)] = why_none(pair);
     for (const store::Candidate& candidate : candidates) {
-      // Else only its stability kept the verdict from "join", or it is a later pose, which was not probed.
+      // Else only its stability kept the verdict from "join", or it is a later pose: no two of a pair are true.
       const bool holds = (join && candidate.rank == 1) || candidate.score < match::kSure;
       input.links.push_back({a->second, b->second, candidate.pose, candidate.score, holds, candidate.slides});
     }

@@ -66,7 +66,7 @@ std::vector<Entry> add_commands(CLI::App& root) {
                                 make_shatter_command()));
   entries.push_back(add_command(root, "split", "Give every piece of a scan a file, without the table.",
                                 make_split_command()));
-  entries.push_back(add_command(root, "batch", "Match every pair of a folder of scans, or of folders.",
+  entries.push_back(add_command(root, "batch", "Match every pair of scans in a folder, or in folders in it.",
                                 make_batch_command()));
   entries.push_back(add_command(root, "report", "Write a run as one HTML page.", make_report_command()));
   entries.push_back(

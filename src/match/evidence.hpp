@@ -96,7 +96,7 @@ Evidence told_by_scale(Evidence evidence, const Scales& scales);
 /// \source docs/scoring.md
 bool drifts(const Evidence& evidence);
 
-/// The evidence with less information where gaps drift, whatever explains it: they are alike over several patches then.
+/// The evidence of solid pieces with less information where gaps drift, whatever explains it: they are alike over several patches then.
 /// \pre told_by_scale()
 Evidence with_fewer_patches(Evidence evidence);
 

@@ -8,7 +8,7 @@ namespace rejoin::match {
 Judged judge(const Joint& joint, const Rigid& pose) {
   const Weighed weighed = weigh(joint.agreed_evidence(pose), joint, pose);
   Judged result{weighed.evidence, Breaks::Fresh, weighed.as_rival};
-  if (strength(result.evidence) > kEven) hold_sliding(result.evidence, joint, pose);
+  if (result.as_rival > kEven) hold_sliding(result.evidence, joint, pose);
   return result;
 }
 

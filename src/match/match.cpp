@@ -253,7 +253,7 @@ Judgement judged(std::vector<Hypothesis> hypotheses, const Joint& joint, const J
   if (!context.cancelled()) settle(hypotheses, joint, b, std::min(a.diameter, b.diameter));
   if (near) keep_near(hypotheses, *near);
   if (axes_restrict(options)) keep_axes(hypotheses, options, result.warnings);
-  if (!context.cancelled()) probe_likely(hypotheses, joint);
+  probe_likely(hypotheses, joint, context);
   const double next = strongest_rival(hypotheses);
   result.has_a_fit = std::ranges::any_of(
       hypotheses, [](const Hypothesis& hypothesis) { return score_of(hypothesis.as_rival) >= kSure; });

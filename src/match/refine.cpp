@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "core/angle.hpp"
 #include "core/parallel.hpp"
 #include "match/cuts.hpp"
 #include "match/esa_search.hpp"
@@ -26,6 +27,8 @@ constexpr int kHalvings = 40;
 constexpr double kNoLimit = -std::numeric_limits<double>::infinity();
 constexpr double kFirm =
     0.3;  // Stability::slide and elsewhere of the best pose beside which those that slide are no rivals
+
+constexpr double kTurned = 15.0 * kDegree;  // from the best pose: no place of the same contact farther along
 
 void sort_by_rank(std::vector<Hypothesis>& list) {
   std::stable_sort(list.begin(), list.end(), [](const Hypothesis& x, const Hypothesis& y) {
@@ -226,8 +229,10 @@ Evidence at_most_even(Evidence evidence, Doubt doubt) {
 
 Weighed weigh(const Evidence& evidence, const Joint& joint, const Rigid& pose) {
   const Evidence all = told(evidence, joint, pose);
-  const Doubt doubt = doubt_of(all, joint.thickness() <= 0.0);
-  return {doubt == Doubt::None ? with_fewer_patches(all) : at_most_even(all, doubt), strength(all)};
+  const bool solid = joint.thickness() <= 0.0;
+  const Doubt doubt = doubt_of(all, solid);
+  if (doubt != Doubt::None) return {at_most_even(all, doubt), strength(all)};
+  return {solid ? with_fewer_patches(all) : all, strength(all)};
 }
 
 void weigh(std::vector<Hypothesis>& list, const Joint& joint) {
@@ -251,11 +256,11 @@ std::optional<Stability> hold_sliding(Evidence& evidence, const Joint& joint, co
   return stability;
 }
 
-void probe_likely(std::vector<Hypothesis>& list, const Joint& joint) {
+void probe_likely(std::vector<Hypothesis>& list, const Joint& joint, const Context& context) {
   parallel_for(list.size(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
       Hypothesis& hypothesis = list[k];
-      if (hypothesis.as_rival <= kEven) continue;
+      if (hypothesis.as_rival <= kEven || context.cancelled()) continue;
       hypothesis.stability = hold_sliding(hypothesis.evidence, joint, hypothesis.pose);
       hypothesis.strength = std::min(hypothesis.strength, strength(hypothesis.evidence));
     }
@@ -265,12 +270,14 @@ void probe_likely(std::vector<Hypothesis>& list, const Joint& joint) {
 
 double strongest_rival(const std::vector<Hypothesis>& list) {
   if (list.empty()) return 0.0;
-  const std::optional<Stability>& best = list.front().stability;
-  const bool firm = best && best->slide < kFirm && best->elsewhere < kFirm;
+  const Hypothesis& best = list.front();
+  const bool firm = best.stability && best.stability->slide < kFirm && best.stability->elsewhere < kFirm;
+  const auto strength_of = [&](const Hypothesis& rival) {
+    const bool elsewhere = angle_between(best.pose, rival.pose) > kTurned;
+    return firm && elsewhere && rival.evidence.doubt == Doubt::Slide ? rival.strength : rival.as_rival;
+  };
   double most = 0.0;
-  for (std::size_t k = 1; k < list.size(); ++k)
-    most =
-        std::max(most, firm && list[k].evidence.doubt == Doubt::Slide ? list[k].strength : list[k].as_rival);
+  for (std::size_t k = 1; k < list.size(); ++k) most = std::max(most, strength_of(list[k]));
   return most;
 }
 

@@ -96,10 +96,10 @@ std::optional<Stability> hold_sliding(Evidence& evidence, const Joint& joint, co
 /// Probes the poses that would be likelier than not, and holds those back along which one piece slides: what is drawn along a line, as run
 /// mouldings and flutes are, lies in its like anywhere.  Then sorts.
 /// \pre settled
-void probe_likely(std::vector<Hypothesis>& list, const Joint& joint);
+void probe_likely(std::vector<Hypothesis>& list, const Joint& joint, const Context& context);
 
-/// The largest strength as a rival of all but the first; 0 if there are none.  Beside a first pose that holds firmly, one that slides is
-/// a rival by what was not held back alone.
+/// The largest strength as a rival of all but the first; 0 if there are none.  Beside a first pose that holds firmly, one that slides,
+/// turned against it, is a rival by what was not held back alone: it is another contact, not the same one farther along.
 /// \pre weighed, and probed
 double strongest_rival(const std::vector<Hypothesis>& list);
 

@@ -87,8 +87,8 @@ std::string against(const Evidence& evidence, double score, const std::optional<
     if (has_rival(*stability)) return told_rival(*stability);
     return fmt::format("either half of the break turns the pose by {:.1f} degrees", stability->repeat_deg);
   }
-  if (evidence.doubt != Doubt::None && std::abs(strength(evidence) - kEven) < kRounding)
-    return told_doubt(evidence);
+  const bool held_back = evidence.doubt != Doubt::None && std::abs(strength(evidence) - kEven) < kRounding;
+  if (held_back || evidence.doubt == Doubt::Slide) return told_doubt(evidence);
   const std::string found = objection(evidence);
   return found.empty() ? "the breaks have too little shape in common" : found;
 }

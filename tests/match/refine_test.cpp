@@ -302,7 +302,7 @@ TEST(Refine, PosesAlongWhichOnePieceSlidesAreEvenAtMost) {
   const Evidence evidence = joint.agreed_evidence(Rigid{});
   std::vector<Hypothesis> list{{Rigid{}, evidence, strength(evidence)}};
   list.front().as_rival = list.front().strength;
-  probe_likely(list, joint);
+  probe_likely(list, joint, Context{});
   EXPECT_EQ(list.front().evidence.doubt, Doubt::Slide);
   EXPECT_GT(list.front().as_rival, 2.0 * kEven);
   EXPECT_LE(list.front().strength, kEven);
@@ -314,6 +314,18 @@ TEST(Refine, PosesAlongWhichOnePieceSlidesAreEvenAtMost) {
   const Judged held = judge(pair.a, pair.b, pair.planted.truth);
   EXPECT_EQ(held.evidence.doubt, Doubt::None);
   EXPECT_GT(strength(held.evidence), 2.0 * kEven);
+}
+
+TEST(Match, PosesAlongWhichOnePieceSlidesAreNoJoins) {
+  const Fragment below = testing::grooved_half(true);
+  const Fragment above = testing::grooved_half(false);
+  Options options;
+  options.near = Rigid{};
+  const Result result = match(below, above, options, Context{});
+  ASSERT_FALSE(result.candidates.empty());
+  EXPECT_TRUE(result.candidates.front().slides);
+  EXPECT_LE(result.candidates.front().score, 0.5 + 1e-9);
+  EXPECT_NE(result.against.find("slides"), std::string::npos) << result.against;
 }
 
 // Ripples catch a piece that is pushed a little; it fits as well at the next ones.
@@ -332,20 +344,23 @@ TEST(Refine, PosesThatFitAsWellFartherAlongAreEvenAtMost) {
 
 // Run mouldings lie in their likes anywhere; that tells nothing of a break that holds.
 TEST(Refine, WhatSlidesIsNoRivalOfWhatHoldsFirmly) {
-  const auto rival_beside = [](double slide_of_best, bool next_slides) {
+  const auto rival_beside = [](const Stability& of_best, bool next_slides, double turn_deg) {
     Hypothesis best;
     best.strength = best.as_rival = 30.0;
-    best.stability = Stability{.slide = slide_of_best};
+    best.stability = of_best;
     Hypothesis next = best;
+    next.pose.rotation = axis_rotation({0, 0, 1}, turn_deg * kDegree);
     if (next_slides) {
       next.evidence.doubt = Doubt::Slide;
       next.strength = kEven;
     }
     return strongest_rival({best, next});
   };
-  EXPECT_EQ(rival_beside(0.1, true), kEven);
-  EXPECT_EQ(rival_beside(0.1, false), 30.0) << "it holds, too";
-  EXPECT_EQ(rival_beside(0.5, true), 30.0) << "the best holds little better";
+  EXPECT_EQ(rival_beside({.slide = 0.1}, true, 90.0), kEven);
+  EXPECT_EQ(rival_beside({.slide = 0.1}, false, 90.0), 30.0) << "it holds, too";
+  EXPECT_EQ(rival_beside({.slide = 0.5}, true, 90.0), 30.0) << "the best holds little better";
+  EXPECT_EQ(rival_beside({.elsewhere = 0.4}, true, 90.0), 30.0) << "the best fits elsewhere, too";
+  EXPECT_EQ(rival_beside({.slide = 0.1}, true, 1.0), 30.0) << "the same contact farther along";
 }
 
 // A large contact of which each patch agrees hardly, as of sawn faces whose marks fit a little somewhere.

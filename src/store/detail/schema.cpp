@@ -82,7 +82,7 @@ CREATE VIEW ranked AS
   ORDER BY p.score DESC, x.name, y.name;
 )sql";
 
-int pragma(SQLite::Database& database, const std::string& name) {
+int pragma(SQLite::Database& database, const char* name) {
   return database.execAndGet(fmt::format("PRAGMA {}", name)).getInt();
 }
 
@@ -180,8 +180,8 @@ bool has_hints(SQLite::Database& database) {
   return pragma(database, "user_version") >= 3;
 }
 
-bool has_slides(SQLite::Database& database, const std::string& name) {
-  return pragma(database, name + ".user_version") >= 4;
+bool has_slides(SQLite::Database& database) {
+  return pragma(database, "user_version") >= 4;
 }
 
 std::filesystem::path database_file(const std::filesystem::path& folder) {

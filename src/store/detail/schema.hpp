@@ -33,8 +33,7 @@ bool has_lengths(SQLite::Database& database);
 bool has_hints(SQLite::Database& database);
 
 /// Whether candidates tell whether one piece slides along the other, as from schema 4 on.
-/// \param name  under which the database was attached
-bool has_slides(SQLite::Database& database, const std::string& name = "main");
+bool has_slides(SQLite::Database& database);
 
 /// The database of a run's folder, or the file itself.
 std::filesystem::path database_file(const std::filesystem::path& folder);
