@@ -11,6 +11,7 @@
 #include "match/cuts.hpp"
 #include "match/esa_search.hpp"
 #include "match/stability.hpp"
+#include "match/verify.hpp"
 
 namespace rejoin::match {
 namespace {
