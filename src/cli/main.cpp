@@ -66,8 +66,8 @@ std::vector<Entry> add_commands(CLI::App& root) {
                                 make_shatter_command()));
   entries.push_back(add_command(root, "split", "Give every piece of a scan a file, without the table.",
                                 make_split_command()));
-  entries.push_back(add_command(root, "batch", "Match every pair of scans in a folder, or in folders in it.",
-                                make_batch_command()));
+  entries.push_back(
+      add_command(root, "batch", "Match every pair of scans in a folder.", make_batch_command()));
   entries.push_back(add_command(root, "report", "Write a run as one HTML page.", make_report_command()));
   entries.push_back(
       add_command(root, "merge", "Put the runs of several shards together.", make_merge_command()));
