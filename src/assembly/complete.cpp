@@ -112,7 +112,7 @@ class Completer {
     const match::Judged found = match::judge(joint, fine);
     const double score = match::score_of(match::strength(found.evidence));
     if (score < kLikely) return std::nullopt;
-    // No search told what else these two would do, nor was it probed: the pairs it follows from bear witness.
+    // No search told what else these two would do: the pairs it follows from bear witness.
     const Rigid pose = match::to_files(a.fragment(), b.fragment(), fine);
     const Link link{guess.a, guess.b, pose, score, false, found.evidence.doubt == match::Doubt::Slide};
     const bool stayed = same_pose(a, b, guess.pose, link.pose, options_);

@@ -7,7 +7,7 @@ namespace rejoin::match {
 
 Judged judge(const Joint& joint, const Rigid& pose) {
   const Weighed weighed = weigh(joint.agreed_evidence(pose), joint, pose);
-  Judged result{weighed.evidence, Breaks::Fresh, weighed.as_rival};
+  Judged result{weighed.evidence, weighed.as_rival};
   if (result.as_rival > kEven) hold_sliding(result.evidence, joint, pose);
   return result;
 }
@@ -17,8 +17,7 @@ Judged judge(const Fragment& a, const Fragment& b, const Rigid& pose) {
   const Rigid at = to_origins(a, b, pose);
   const Judged fresh = judge(joint, at);
   if (!tell_wear(a, b) || score_of(fresh.as_rival) >= kSure) return fresh;
-  Judged worn = judge(joint.worn(), at);
-  worn.breaks = Breaks::Worn;
+  const Judged worn = judge(joint.worn(), at);
   return strength(worn.evidence) > strength(fresh.evidence) ? worn : fresh;
 }
 

@@ -8,8 +8,7 @@ namespace rejoin::match {
 
 /// A pose, judged without any search or alignment: a rough one, at which the breaks do not touch, is worth nothing.
 struct Judged {
-  Evidence evidence;  ///< weigh()ed, and held back where one piece slides along the other
-  Breaks breaks = Breaks::Fresh;
+  Evidence evidence;    ///< weigh()ed, and held back where one piece slides along the other
   double as_rival = 0;  ///< Hypothesis::as_rival
 };
 

@@ -275,5 +275,17 @@ TEST(Match, CancelledSearchReturnsAtOnceAndSaysSo) {
   EXPECT_TRUE(result.cancelled);
 }
 
+TEST(Match, PosesAlongWhichOnePieceSlidesAreNoJoins) {
+  const Fragment below = testing::grooved_half(true);
+  const Fragment above = testing::grooved_half(false);
+  Options options;
+  options.near = Rigid{};
+  const Result result = match(below, above, options, Context{});
+  ASSERT_FALSE(result.candidates.empty());
+  EXPECT_TRUE(result.candidates.front().slides);
+  EXPECT_LE(result.candidates.front().score, 0.5 + 1e-9);
+  EXPECT_NE(result.against.find("slides"), std::string::npos) << result.against;
+}
+
 }  // namespace
 }  // namespace rejoin::match

@@ -316,18 +316,6 @@ TEST(Refine, PosesAlongWhichOnePieceSlidesAreEvenAtMost) {
   EXPECT_GT(strength(held.evidence), 2.0 * kEven);
 }
 
-TEST(Match, PosesAlongWhichOnePieceSlidesAreNoJoins) {
-  const Fragment below = testing::grooved_half(true);
-  const Fragment above = testing::grooved_half(false);
-  Options options;
-  options.near = Rigid{};
-  const Result result = match(below, above, options, Context{});
-  ASSERT_FALSE(result.candidates.empty());
-  EXPECT_TRUE(result.candidates.front().slides);
-  EXPECT_LE(result.candidates.front().score, 0.5 + 1e-9);
-  EXPECT_NE(result.against.find("slides"), std::string::npos) << result.against;
-}
-
 // Ripples catch a piece that is pushed a little; it fits as well at the next ones.
 TEST(Refine, PosesThatFitAsWellFartherAlongAreEvenAtMost) {
   const Fragment below = testing::grooved_half(true, 0.4);
