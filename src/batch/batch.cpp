@@ -52,12 +52,12 @@ class Work {
         names_(names_of(scans_)),
         equal_sized_(files_of_equal_size(scans_)),
         run_(open(output)),
-        parameters_{version(), parameters_json(options.match), options.match.seed},
+        parameters_{version(), parameters_json(options.match, options.kind), options.match.seed},
         copies_(copies()),
         layout_(without_copies(options.layout)),
         painted_(without_copies(options.painted)),
         tiles_(tiles_of(take_copies_off(), options.shard)),
-        shelf_(output / kCacheName) {}
+        shelf_(output / kCacheName, options.kind) {}
 
   Summary run() {
     begin();

@@ -28,7 +28,8 @@ struct Options {
   /// Two scans of it are looked for near the pose that they have there, and there alone, in full.  If they lie too far apart there to
   /// touch, they are not looked for.
   Layout layout;
-  Painted painted;  ///< breaks where they are found wrong
+  Painted painted;                                ///< breaks where they are found wrong
+  mesh::PieceKind kind = mesh::PieceKind::Found;  ///< of all scans
   Shard shard;
   bool retry = false;                 ///< try again what failed in an earlier run
   std::vector<std::string> warnings;  ///< of reading these options; the listener hears them after the start

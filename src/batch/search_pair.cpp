@@ -28,6 +28,8 @@ store::Candidate candidate_from(const match::Candidate& found) {
   return candidate;
 }
 
+constexpr const char* kSolid = "solid";  // of the parameters
+
 /// A renderer's name may be no UTF-8, but JSON must be.
 std::string text_of(const nlohmann::json& json) {
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -86,13 +88,20 @@ std::optional<Searched> search_pair(const match::Fragment& a, const match::Fragm
   return found;
 }
 
-std::string parameters_json(const match::Options& options) {
+std::string parameters_json(const match::Options& options, mesh::PieceKind kind) {
   return text_of({{"search", options.search == match::Search::Esa ? "esa" : "sweep"},
                   {"resolution", options.resolution},
                   {"backend", zbuffer::name_of(options.backend)},
                   {"chains", options.chains},
                   {"promising_only", options.promising_only},
-                  {"max_candidates", options.max_candidates}});
+                  {"max_candidates", options.max_candidates},
+                  {kSolid, kind == mesh::PieceKind::Solid}});
+}
+
+mesh::PieceKind kind_of(const store::Parameters& parameters) {
+  const nlohmann::json json = nlohmann::json::parse(parameters.json, nullptr, false);
+  const bool solid = json.is_object() && json.value(kSolid, nlohmann::json(false)) == true;
+  return solid ? mesh::PieceKind::Solid : mesh::PieceKind::Found;
 }
 
 std::string pose_text(const Rigid& pose) {

@@ -22,7 +22,10 @@ std::optional<Searched> search_pair(const match::Fragment& a, const match::Fragm
                                     const match::Options& options, const Context& context);
 
 /// What of the options has an influence on results, as JSON with sorted keys; the seed is kept apart.
-std::string parameters_json(const match::Options& options);
+std::string parameters_json(const match::Options& options, mesh::PieceKind kind);
+
+/// The kind that they tell.
+mesh::PieceKind kind_of(const store::Parameters& parameters);
 
 /// A pose as store::Fragment keeps it: 4 x 4 as JSON, with all digits.
 std::string pose_text(const Rigid& pose);

@@ -98,11 +98,12 @@ struct Outcome {
   std::unique_ptr<const match::Fragment> prepared;
 };
 
-Outcome prepare_one(const store::Fragment& fragment, const fs::path& cache, const Context& context) {
+Outcome prepare_one(const store::Fragment& fragment, const fs::path& cache, mesh::PieceKind kind,
+                    const Context& context) {
   Outcome outcome{fragment, nullptr};
   store::Fragment& record = outcome.fragment;
   try {
-    outcome.prepared = std::make_unique<const match::Fragment>(load_prepared(fragment, cache, context));
+    outcome.prepared = std::make_unique<const match::Fragment>(load_prepared(fragment, cache, kind, context));
     record.faces = static_cast<std::int64_t>(outcome.prepared->surface.faces.size());
     const match::Lengths lengths = match::lengths_of(*outcome.prepared);
     record.diameter = lengths.diameter;
@@ -173,13 +174,13 @@ void gather_surfaces(const std::vector<fs::path>& caches, const fs::path& cache)
   }
 }
 
-match::Fragment load_prepared(const store::Fragment& fragment, const fs::path& cache,
+match::Fragment load_prepared(const store::Fragment& fragment, const fs::path& cache, mesh::PieceKind kind,
                               const Context& context) {
   std::vector<std::string> warnings;
   std::optional<mesh::Mesh> surface = read_if_whole(kept_file(fragment, cache));
   if (!surface && hash_if_readable(fragment.path) != fragment.hash) surface = kept_surface(fragment, cache);
   if (!surface) surface = read_and_keep(fragment, cache, warnings);
-  match::Fragment prepared = match::prepare(fragment.path, std::move(*surface), context);
+  match::Fragment prepared = match::prepare(fragment.path, std::move(*surface), context, kind);
   prepared.warnings.insert(prepared.warnings.begin(), warnings.begin(), warnings.end());
   if (!fragment.facets.empty()) use_kept_paint(prepared, fragment, cache);
   return prepared;
@@ -201,7 +202,7 @@ void Shelf::hold(const std::vector<store::Fragment>& wanted, const Context& cont
   run_side_by_side(missing.size(), [&](std::size_t k) {
     if (context.cancelled()) return;
     const Context alone({}, context);
-    Outcome outcome = prepare_one(missing[k], cache_, alone);
+    Outcome outcome = prepare_one(missing[k], cache_, kind_, alone);
     const std::lock_guard lock(guard);
     const std::vector<std::string> warnings =
         outcome.prepared ? outcome.prepared->warnings : std::vector<std::string>{};

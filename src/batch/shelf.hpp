@@ -25,7 +25,7 @@ inline constexpr const char* kCacheName = "fragments";
 /// \param cache  folder, made if it is not there
 /// \throws InputError, IoError the scan cannot be used, or is no longer of the fragment's hash   \throws StoreError the cache cannot be written
 match::Fragment load_prepared(const store::Fragment& fragment, const std::filesystem::path& cache,
-                              const Context& context);
+                              mesh::PieceKind kind, const Context& context);
 
 /// The surface kept under `cache`, if it is there and whole.
 std::optional<mesh::Mesh> kept_surface(const store::Fragment& fragment, const std::filesystem::path& cache);
@@ -46,7 +46,7 @@ class Shelf {
   /// Called from one thread at a time.
   using Told = std::function<void(const store::Fragment&, const std::vector<std::string>& warnings)>;
 
-  explicit Shelf(std::filesystem::path cache) : cache_(std::move(cache)) {}
+  Shelf(std::filesystem::path cache, mesh::PieceKind kind) : cache_(std::move(cache)), kind_(kind) {}
 
   /// Puts these fragments on the shelf, side by side, and takes all others off.  One that is marked bad, or turns out so, is left out.
   /// After a cancel some may be missing.
@@ -58,6 +58,7 @@ class Shelf {
 
  private:
   std::filesystem::path cache_;
+  mesh::PieceKind kind_;
   std::map<std::string, std::unique_ptr<const match::Fragment>> held_;
 };
 

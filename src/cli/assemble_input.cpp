@@ -12,6 +12,7 @@
 
 #include "batch/batch.hpp"
 #include "batch/inputs.hpp"
+#include "batch/search_pair.hpp"
 #include "batch/shelf.hpp"
 #include "batch/sizes.hpp"
 #include "cli/batch_listeners.hpp"
@@ -34,10 +35,11 @@ struct Loaded {
       false;  ///< the surface that was matched is gone and cannot be made again in its place (a run that may only be read)
 };
 
-Loaded load_kept(const store::Fragment& fragment, const fs::path& folder, const Context& context) {
+Loaded load_kept(const store::Fragment& fragment, const fs::path& folder, mesh::PieceKind kind,
+                 const Context& context) {
   Loaded loaded;
   try {
-    loaded.fragment = batch::load_prepared(fragment, folder / batch::kCacheName, context);
+    loaded.fragment = batch::load_prepared(fragment, folder / batch::kCacheName, kind, context);
   } catch (const StoreError&) {
     loaded.is_not_kept = true;
   } catch (const Error& error) {
@@ -48,14 +50,14 @@ Loaded load_kept(const store::Fragment& fragment, const fs::path& folder, const 
 
 /// The surfaces that were matched, side by side.
 std::vector<Loaded> load_all_kept(const std::vector<store::Fragment>& fragments, const fs::path& folder,
-                                  const Context& context) {
+                                  mesh::PieceKind kind, const Context& context) {
   std::vector<Loaded> loaded(fragments.size());
   std::size_t done = 0;
   std::mutex guard;
   run_side_by_side(fragments.size(), [&](std::size_t k) {
     if (context.cancelled()) return;
     const Context alone({}, context);
-    loaded[k] = load_kept(fragments[k], folder, alone);
+    loaded[k] = load_kept(fragments[k], folder, kind, alone);
     const std::lock_guard lock(guard);
     context.report("load", static_cast<double>(++done) / static_cast<double>(fragments.size()));
   });
@@ -85,12 +87,13 @@ std::map<std::int64_t, std::size_t> load_all(const store::Run& run, const fs::pa
                                              AssembleInput& input, Console& console, const Context& context) {
   std::map<std::int64_t, std::size_t> number;
   const std::vector<store::Fragment> fragments = usable(run, input, console);
-  std::vector<Loaded> loaded = load_all_kept(fragments, folder, context);
+  const mesh::PieceKind kind = batch::kind_of(run.parameters());
+  std::vector<Loaded> loaded = load_all_kept(fragments, folder, kind, context);
   console.end_progress();
   for (std::size_t k = 0; k < fragments.size() && !context.cancelled(); ++k) {
     const store::Fragment& fragment = fragments[k];
     try {
-      if (loaded[k].is_not_kept) loaded[k].fragment = load_fragment(fragment.path, console, context);
+      if (loaded[k].is_not_kept) loaded[k].fragment = load_fragment(fragment.path, console, context, kind);
     } catch (const Error& error) {
       loaded[k].error = error.what();
     }

@@ -34,6 +34,7 @@ class CompareCommand final : public Command {
         ->expected(1)
         ->take_all()
         ->group("Input");
+    add_solid(app, solid_);
     app.add_option("--json", json_, "write all figures (-: to stdout)")->type_name("FILE")->group("Output");
     app.add_option("--out", out_, "write compare.png and compare.json")->type_name("DIR")->group("Output");
     app.option_defaults()->group("Measurement");
@@ -48,8 +49,8 @@ class CompareCommand final : public Command {
     if (out_) require_writable_folder(*out_);  // first, for --json may lie in it
     if (json_) require_writable_file(*json_);
     const Rigid pose = read_pose(pose_, path_a_, path_b_);
-    match::Fragment a = load_fragment(path_a_, console, context);
-    match::Fragment b = load_fragment(path_b_, console, context);
+    match::Fragment a = load_fragment(path_a_, console, context, kind_of(solid_));
+    match::Fragment b = load_fragment(path_b_, console, context, kind_of(solid_));
     use_painted_facets(painted_, {&a, &b}, console);
     const match::Comparison comparison = match::compare(a, b, pose, options_, context);
     console.end_progress();
@@ -73,6 +74,7 @@ class CompareCommand final : public Command {
   std::string path_b_;
   std::string pose_;
   std::vector<std::string> painted_;
+  bool solid_ = false;
   std::optional<std::string> json_;
   std::optional<std::string> out_;
   match::CompareOptions options_;

@@ -89,6 +89,7 @@ class FacetsCommand final : public Command {
     app.add_option("--facets", painted_, "the PLY of --ply, painted: a colour a facet")
         ->type_name("FILE")
         ->group("Input");
+    add_solid(app, solid_);
     app.add_option("--ply", ply_, "write the surface with a colour for each facet")
         ->type_name("FILE")
         ->group("Output");
@@ -106,7 +107,7 @@ class FacetsCommand final : public Command {
     for (const auto& file : {ply_, png_, json_}) {
       if (file) require_writable_file(*file);
     }
-    match::Fragment fragment = load_fragment(path_, console, context);
+    match::Fragment fragment = load_fragment(path_, console, context, kind_of(solid_));
     if (context.cancelled()) return kInterrupted;
     if (painted_) use_painted_facets({*painted_}, {&fragment}, console);
     console.result(fmt::format(
@@ -126,6 +127,7 @@ class FacetsCommand final : public Command {
  private:
   std::string path_;
   std::optional<std::string> painted_;
+  bool solid_ = false;
   std::optional<std::string> ply_;
   std::optional<std::string> png_;
   std::optional<std::string> json_;

@@ -31,13 +31,14 @@ mesh::Loaded load_scan(const std::string& path, Console& console, mesh::Weld wel
   return loaded;
 }
 
-match::Fragment read_and_prepare(const std::string& path, Console& console, const Context& context) {
+match::Fragment read_and_prepare(const std::string& path, Console& console, const Context& context,
+                                 mesh::PieceKind kind) {
   const NothingToSave guard;
   std::vector<StageTime> stages;
   Stopwatch clock(stages);
   mesh::Loaded scan = load_scan(path, console);
   clock.lap("load");
-  match::Fragment fragment = match::prepare_as_kept(path, std::move(scan.mesh), context);
+  match::Fragment fragment = match::prepare_as_kept(path, std::move(scan.mesh), context, kind);
   for (const std::string& warning : fragment.warnings) console.warning(warning);
   fragment.warnings.insert(fragment.warnings.begin(), scan.warnings.begin(), scan.warnings.end());
   fragment.stages.insert(fragment.stages.begin(), stages.begin(), stages.end());
@@ -51,8 +52,13 @@ void require_no_folder(const std::string& path, const std::string& mend) {
   if (std::filesystem::is_directory(path, ignored)) throw IoError(path, "is a folder", mend);
 }
 
-match::Fragment load_fragment(const std::string& path, Console& console, const Context& context) {
-  match::Fragment fragment = read_and_prepare(path, console, context);
+void add_solid(CLI::App& app, bool& solid) {
+  app.add_flag("--solid", solid, "no sherds with walls: any surface may be broken")->group("Input");
+}
+
+match::Fragment load_fragment(const std::string& path, Console& console, const Context& context,
+                              mesh::PieceKind kind) {
+  match::Fragment fragment = read_and_prepare(path, console, context, kind);
   double seconds = 0;
   for (const StageTime& stage : fragment.stages) seconds += stage.seconds;
   console.detail(fmt::format("{}: {} points, {} faces, diameter {:.4g}; made ready in {:.2f} s", path,

@@ -44,7 +44,7 @@ std::string layout(const std::string& left, const std::string& description) {
 }
 
 std::string layout(const HelpGroup& group) {
-  std::string text = "\n" + group.heading + ":\n";
+  std::string text = group.heading + ":\n";
   for (const HelpLine& line : group.lines) {
     text += layout(line.argument.empty() ? line.names : line.names + " " + line.argument, line.description);
   }
@@ -91,7 +91,12 @@ std::string HelpFormatter::make_help(const CLI::App* app, std::string /*name*/,
   const std::vector<const CLI::App*> commands = visible_subcommands(*app);
   if (!commands.empty()) text += "\nCommands:\n";
   for (const CLI::App* command : commands) text += layout(command->get_name(), command->get_description());
-  for (const HelpGroup& group : help_groups(*app)) text += layout(group);
+  // Lines are scarce: the longest help has just as many as a terminal.
+  std::string gap = commands.empty() ? "" : "\n";
+  for (const HelpGroup& group : help_groups(*app)) {
+    text += gap + layout(group);
+    gap = "\n";
+  }
   const std::string footer = app->get_footer();
   return footer.empty() ? text : text + footer + "\n";
 }

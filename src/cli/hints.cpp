@@ -6,6 +6,7 @@
 
 #include "batch/inputs.hpp"
 #include "cli/command.hpp"
+#include "cli/fragment.hpp"
 #include "cli/layout.hpp"
 
 namespace rejoin::cli {
@@ -17,6 +18,7 @@ void Hints::define(CLI::App& app) {
   app.add_option("--facets", painted_, "painted breaks: NAME-facets.ply of scans")
       ->type_name("DIR")
       ->group("Input");
+  add_solid(app, solid_);
 }
 
 void Hints::read_into(batch::Options& options, const std::string& scans) const {
@@ -25,6 +27,7 @@ void Hints::read_into(batch::Options& options, const std::string& scans) const {
     options.layout = std::move(laid.layout);
     options.warnings = std::move(laid.warnings);
   }
+  options.kind = kind_of(solid_);
   if (!painted_) return;
   batch::FoundPainted found = batch::find_painted(*painted_, batch::names_of(batch::find_scans(scans)));
   options.painted = std::move(found.painted);

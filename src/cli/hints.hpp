@@ -1,4 +1,4 @@
-/// What the user knows of the scans of a folder: --layout and --facets.
+/// What the user knows of the scans of a folder: --layout, --facets and --solid.
 #pragma once
 
 #include <CLI/App.hpp>
@@ -16,7 +16,9 @@ class Hints {
   void define(CLI::App& app);
 
   /// Name of one that was given; nullptr: none was.
-  const char* given() const { return layout_ ? "--layout" : painted_ ? "--facets" : nullptr; }
+  const char* given() const {
+    return layout_ ? "--layout" : painted_ ? "--facets" : solid_ ? "--solid" : nullptr;
+  }
 
   /// Reads their files.
   /// \param scans  the folder
@@ -27,6 +29,7 @@ class Hints {
  private:
   std::optional<std::string> layout_;
   std::optional<std::string> painted_;
+  bool solid_ = false;
 };
 
 }  // namespace rejoin::cli

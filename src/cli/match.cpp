@@ -118,6 +118,7 @@ class MatchCommand final : public Command {
     app.add_option("--near", near_, "look near a rough pose, as of --json or 4 x 4 numbers")
         ->type_name("FILE")
         ->group("Input");
+    add_solid(app, solid_);
     app.option_defaults()->group("Search");
     add_choice(app, "--propose", by_rims_, kProposers, "what proposes poses; rims: of thin sherds");
     options_.define(app);
@@ -131,8 +132,8 @@ class MatchCommand final : public Command {
     require_two_files(path_a_, path_b_);
     if (out_) require_out();  // first, for --json may lie in it
     if (json_) require_writable_file(*json_);
-    match::Fragment a = load_fragment(path_a_, console, context);
-    match::Fragment b = load_fragment(path_b_, console, context);
+    match::Fragment a = load_fragment(path_a_, console, context, kind_of(solid_));
+    match::Fragment b = load_fragment(path_b_, console, context, kind_of(solid_));
     use_painted_facets(painted_, {&a, &b}, console);
     require_facets("--facets-a", options.facets_a, a);
     require_facets("--facets-b", options.facets_b, b);
@@ -272,6 +273,7 @@ class MatchCommand final : public Command {
   std::string path_a_;
   std::string path_b_;
   std::vector<std::string> painted_;
+  bool solid_ = false;
   std::optional<std::string> json_;
   std::optional<std::string> out_;
   std::optional<OutputHold> hold_;  ///< of out_

@@ -383,6 +383,7 @@ std::optional<std::pair<std::string, std::string>> option_of(const std::string& 
                                                              const ordered_json& all) {
   const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
   if (name == "resolution" || name == "backend") return std::pair("--" + name, text);
+  if (name == "solid") return std::pair("--solid", value == true ? "yes" : "no");
   if (name == "max_candidates") return std::pair("poses kept of a pair", text);
   if (name == "chains" && all.value("search", "") == "sweep") return std::nullopt;  // of the annealing
   return std::pair(name, text);

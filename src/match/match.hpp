@@ -118,13 +118,16 @@ bool tell_wear(const Fragment& a, const Fragment& b);
 mesh::Mesh surface_of(const std::string& path, mesh::Mesh scan);
 
 /// \param scan  what load() gave
+/// \param kind  Solid where the user says so
 /// \throws InputError  as surface_of()
-Fragment prepare(std::string path, mesh::Mesh scan, const Context& context);
+Fragment prepare(std::string path, mesh::Mesh scan, const Context& context,
+                 mesh::PieceKind kind = mesh::PieceKind::Found);
 
 /// The same from the surface as `rejoin batch` keeps it, so that facets have the same numbers and joints the same scores there:
 /// these depend a little on the order of the vertices.
 /// \throws InputError, IoError  as surface_of() and mesh::as_kept()
-Fragment prepare_as_kept(std::string path, mesh::Mesh scan, const Context& context);
+Fragment prepare_as_kept(std::string path, mesh::Mesh scan, const Context& context,
+                         mesh::PieceKind kind = mesh::PieceKind::Found);
 
 /// Poses B -> A in the files' coordinates and relative to the meshes' origins, where the matcher computes.
 Rigid to_origins(const Fragment& a, const Fragment& b, const Rigid& in_files);

@@ -71,9 +71,9 @@ void doubt_shapeless_points(Fragment& fragment, bool noisy) {
 }
 
 /// Walls of a sherd that is taken for a solid piece lie on those of others as breaks do.
-void doubt_scans_from_one_side(Fragment& fragment) {
+void doubt_scans_from_one_side(Fragment& fragment, mesh::PieceKind kind) {
   const double unbacked = mesh::unbacked_share(fragment.facets);
-  if (fragment.facets.wall_thickness > 0 || unbacked < kFromOneSide) return;
+  if (kind == mesh::PieceKind::Solid || fragment.facets.wall_thickness > 0 || unbacked < kFromOneSide) return;
   fragment.warnings.push_back(fmt::format(
       "{}: nothing lies behind {:.0f} % of it, as of a scan from one side, and it is taken for a "
       "solid piece: if it is a sherd, its wall may be joined as a break; scan the other side, too, "
@@ -167,17 +167,17 @@ mesh::Mesh surface_of(const std::string& path, mesh::Mesh scan) {
   return surface;
 }
 
-Fragment prepare_as_kept(std::string path, mesh::Mesh scan, const Context& context) {
+Fragment prepare_as_kept(std::string path, mesh::Mesh scan, const Context& context, mesh::PieceKind kind) {
   std::vector<StageTime> stages;
   Stopwatch clock(stages);
   mesh::Mesh kept = mesh::as_kept(surface_of(path, std::move(scan)), path);
   clock.lap("keep");
-  Fragment fragment = prepare(std::move(path), std::move(kept), context);
+  Fragment fragment = prepare(std::move(path), std::move(kept), context, kind);
   fragment.stages.insert(fragment.stages.begin(), stages.begin(), stages.end());
   return fragment;
 }
 
-Fragment prepare(std::string path, mesh::Mesh scan, const Context& context) {
+Fragment prepare(std::string path, mesh::Mesh scan, const Context& context, mesh::PieceKind kind) {
   context.report("prepare " + path, 0.0);
   Fragment fragment;
   fragment.path = std::move(path);
@@ -204,14 +204,14 @@ Fragment prepare(std::string path, mesh::Mesh scan, const Context& context) {
   fragment.coarse = matched.faces.size() > kCoarseFaces ? mesh::simplify(matched, kCoarseFaces) : matched;
   fragment.middle = view_centre(fragment.coarse);
   clock.lap("coarse");
-  fragment.facets = mesh::segment(matched, fragment.diameter);
+  fragment.facets = mesh::segment(matched, fragment.diameter, kind);
   fragment.waviness = waviness(fragment.facets, fragment.diameter, fragment.resolution);
   fragment.least_extent = mesh::least_extent(fragment.facets.samples.points);
   fragment.sample_of_face = mesh::sample_of_faces(fragment.facets, fragment.coarse);
   if (open) tell_pores(fragment, open->share);
   doubt_coarse_walls(fragment);
   doubt_shapeless_points(fragment, noisy);
-  doubt_scans_from_one_side(fragment);
+  doubt_scans_from_one_side(fragment, kind);
   doubt_several_bodies(fragment);
   doubt_table(fragment);
   clock.lap("facets");

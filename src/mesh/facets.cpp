@@ -326,11 +326,12 @@ bool is_flake(const Mesh& mesh, const Segmentation& s) {
 
 /// Sets the samples, their normals and classes, and the wall thickness.
 /// \return the samples' neighbours
-Lists classify(const Mesh& mesh, double size, Segmentation& s) {
+Lists classify(const Mesh& mesh, double size, PieceKind kind, Segmentation& s) {
   Look seen = look(mesh, kSamples, s);
+  s.backed = meets_something(seen.rays);
+  if (kind == PieceKind::Solid) return std::move(seen.near);
   const Walls walls = find_walls(seen.rays, s.normals, s.roughness, size);
   s.wall_thickness = walls.thickness;
-  s.backed = meets_something(seen.rays);
   const bool open = unbacked_share(s) > kOpen;
   if (open && s.wall_thickness == 0) {
     const double width = open_walls(mesh, s, seen.near, kWideOfSize * size).break_width;
@@ -394,9 +395,9 @@ Segmentation segment(const Mesh& mesh) {
   return segment(mesh, diameter(mesh));
 }
 
-Segmentation segment(const Mesh& mesh, double size) {
+Segmentation segment(const Mesh& mesh, double size, PieceKind kind) {
   Segmentation s;
-  const Lists near = classify(mesh, size, s);
+  const Lists near = classify(mesh, size, kind, s);
   const bool thin = s.wall_thickness > 0;
   s.sample_area = surface_area(mesh) / static_cast<double>(std::max<std::size_t>(1, s.samples.size()));
   const std::vector<glm::vec3> normals = thin ? strip_normals(s) : s.normals;

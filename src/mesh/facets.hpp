@@ -26,6 +26,12 @@ struct Facet {
 /// Which surface a sample belongs to.
 enum class Surface : std::uint8_t { Original, Fracture };
 
+/// What a piece is.
+enum class PieceKind : std::uint8_t {
+  Found,  ///< a sherd with walls, or a solid piece: told by its shape
+  Solid,  ///< without walls, whatever its shape: blades and slabs have parallel faces too, which may be broken
+};
+
 /// A surface cut into facets.
 struct Cut {
   std::vector<int> facet_of_sample;  ///< index into facets, -1 where none
@@ -56,7 +62,7 @@ struct Segmentation : Cut {
 /// one of the cuts parts is often whole in the other. \pre the mesh has faces \source papaioannou 2002,
 /// section 6.2 (mean normals of the most irregular compact facets)
 /// \param size  diameter(mesh)
-Segmentation segment(const Mesh& mesh, double size);
+Segmentation segment(const Mesh& mesh, double size, PieceKind kind = PieceKind::Found);
 Segmentation segment(const Mesh& mesh);
 
 /// For every point with a normal the nearest sample that looks the same way, of the four nearest, or -1.

@@ -21,7 +21,9 @@ class Shelved : public ::testing::Test {
     fragment_.hash = content_hash(scan_);
   }
 
-  std::size_t faces() const { return load_prepared(fragment_, cache_, Context{}).surface.faces.size(); }
+  std::size_t faces() const {
+    return load_prepared(fragment_, cache_, mesh::PieceKind::Found, Context{}).surface.faces.size();
+  }
 
   std::vector<fs::path> kept() const {
     std::vector<fs::path> files;
