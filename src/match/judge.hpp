@@ -10,6 +10,7 @@ namespace rejoin::match {
 struct Judged {
   Evidence evidence;    ///< weigh()ed, and held back where one piece slides along the other
   double as_rival = 0;  ///< Hypothesis::as_rival
+  double fit = 0;       ///< strength() before anything was weighed
 };
 
 /// \param pose  B -> A, relative to the meshes' origins

@@ -229,7 +229,7 @@ struct Judgement {
   std::vector<std::string> warnings;
   double promise = 0;      ///< Result::promise
   bool in_full = true;     ///< Result::in_full
-  bool has_a_fit = false;  ///< some pose is as strong as a sure one, whatever it is held back by
+  bool has_a_fit = false;  ///< some pose is as strong as a sure one before anything is held back
 
   double strength() const { return hypotheses.empty() ? 0.0 : hypotheses.front().strength; }
 };
@@ -249,14 +249,13 @@ Judgement judged(std::vector<Hypothesis> hypotheses, const Joint& joint, const J
   if (!context.cancelled()) align(hypotheses, joint, a, b, near, std::span(rounds).subspan(kGlance), context);
   if (near && !context.cancelled()) keep_laid(hypotheses, joint, a, b, *near, fresh, options, context);
   if (!context.cancelled()) tighten(hypotheses, joint, b, std::min(a.diameter, b.diameter));
+  result.has_a_fit = score_of(strongest(hypotheses)) >= kSure;
   weigh(hypotheses, joint);
   if (!context.cancelled()) settle(hypotheses, joint, b, std::min(a.diameter, b.diameter));
   if (near) keep_near(hypotheses, *near);
   if (axes_restrict(options)) keep_axes(hypotheses, options, result.warnings);
   probe_likely(hypotheses, joint, context);
   const double next = strongest_rival(hypotheses);
-  result.has_a_fit = std::ranges::any_of(
-      hypotheses, [](const Hypothesis& hypothesis) { return score_of(hypothesis.as_rival) >= kSure; });
   hypotheses.resize(std::min(hypotheses.size(), static_cast<std::size_t>(options.max_candidates)));
   if (!hypotheses.empty() && !context.cancelled()) {
     const Hypothesis& best = hypotheses.front();
@@ -271,7 +270,7 @@ Judgement judged(std::vector<Hypothesis> hypotheses, const Joint& joint, const J
 }
 
 /// As fresh breaks, and where these fit nowhere, as worn ones.  Breaks that fit by the smaller distances and are doubted, as they slide,
-/// drift or fit at several poses, are not asked again by distances that hide it.
+/// drift, agree in large shape alone or fit at several poses, are not asked again by distances that hide it.
 Judgement judged_both_ways(std::vector<Hypothesis> hypotheses, const Fragment& a, const Fragment& b,
                            const Joint& joint, const std::optional<Near>& near, const Options& options,
                            const Context& context) {

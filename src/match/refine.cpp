@@ -296,7 +296,10 @@ void settle(std::vector<Hypothesis>& list, const Joint& joint, const Fragment& b
                                                           .both = true});
       const Evidence open = joint.agreed_evidence(aligned);
       hypothesis.pose = Rigid{glm::dmat3(1.0), -open.gap_middle * open.normal} * aligned;
+      const bool doubted = hypothesis.evidence.doubt != Doubt::None;
       hypothesis.evidence = weigh(joint.agreed_evidence(hypothesis.pose), joint, hypothesis.pose).evidence;
+      if (doubted && hypothesis.evidence.doubt == Doubt::None)
+        hypothesis.strength = std::min(hypothesis.as_rival, strength(hypothesis.evidence));
     }
   });
   list = distinct(list, b, diameter);

@@ -105,7 +105,8 @@ double strongest_rival(const std::vector<Hypothesis>& list);
 
 /// Aligns what may be a join by both pieces' samples at once, and shifts it along its normal until the median of its gaps, signed
 /// and away from edges, is nought; the strength stays: false poses gain as much, and where a joint is strongest it is not nearest to the
-/// truth, as more of worn edges touches if they are pressed into each other.  Keeps one of poses that came together.
+/// truth, as more of worn edges touches if they are pressed into each other.  What held a pose back no more does where it has settled: a
+/// large joint that is turned a little drifts.  Keeps one of poses that came together.
 /// \param diameter  of the smaller fragment, mesh units
 /// \pre weighed
 void settle(std::vector<Hypothesis>& list, const Joint& joint, const Fragment& b, double diameter);

@@ -149,6 +149,30 @@ TEST(Drift, HoldsAJointBackUnlessTheScansStray) {
   EXPECT_GT(strength_of(prepared(part(true, waves)), prepared(part(false, waves, bend))), kEven + 6.0);
 }
 
+/// A pose as the last round of alignment leaves it, weighed.
+Hypothesis weighed_at(const Joint& joint, const Rigid& pose) {
+  const Evidence evidence = joint.agreed_evidence(pose);
+  std::vector<Hypothesis> list{{pose, evidence, strength(evidence), -1, -1}};
+  weigh(list, joint);
+  return list.front();
+}
+
+TEST(Drift, HoldsAPoseBackNoMoreWhereItHasSettled) {
+  const Fragment smooth = prepared(part(true, ripples));
+  const auto settled = [&](const Fragment& b, double shift) {
+    const Joint joint(smooth, b);
+    const Rigid shifted{glm::dmat3(1.0), {0.0, shift, 0.0}};  // along the break
+    std::vector<Hypothesis> list{weighed_at(joint, to_origins(smooth, b, shifted))};
+    EXPECT_EQ(list.front().evidence.doubt, Doubt::Drift) << list.front().evidence.drift;
+    EXPECT_LE(list.front().strength, kEven);
+    settle(list, joint, b, 0.0);
+    EXPECT_LE(list.front().strength, list.front().as_rival);
+    return list.front().strength;
+  };
+  EXPECT_GT(settled(prepared(part(false, ripples)), 0.15), kEven + 6.0);
+  EXPECT_LE(settled(prepared(part(false, ripples, bend)), 0.0), kEven) << "these are alike";
+}
+
 TEST(Drift, CountsAboveWhatTheScansExplain) {
   const Evidence evidence = told_by_scale({.explained = 0.09}, {.share = 1, .drift = 1.4, .spread = 0.1});
   EXPECT_TRUE(drifts(evidence));

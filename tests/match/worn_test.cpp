@@ -47,6 +47,29 @@ Pair pair_with(const Loss& loss) {
   return pair;
 }
 
+/// Halves of a slab with smooth faces where they broke, like blades struck one after the other; one has 0.12 mm of waves that the other lacks.
+Pair smooth_pair() {
+  constexpr int kCells = 140;
+  constexpr double kStray = 0.03;  // of the scanner, mm
+  Pair pair{testing::planted_pair(5, kCells), {}, {}, {}};
+  Random random(3);
+  const auto half = [&](bool below, const Rigid& to_file) {
+    mesh::Mesh mesh = testing::half_block(below, kCells);
+    for (auto& v : mesh.vertices) {
+      if (std::abs(v.z) != static_cast<float>(testing::kHalfZ))
+        v.z = 0.5F * std::sin(0.09F * v.x + 0.4F) * std::cos(0.1F * v.y - 0.3F) +
+              (below ? 0.0F : 0.12F * std::sin(0.3F * v.x + 0.25F * v.y));
+      v.z += static_cast<float>(kStray * random.normal());
+    }
+    return prepare(below ? "below" : "above", moved(mesh, to_file, {1, 2, 3}), Context{},
+                   mesh::PieceKind::Solid);
+  };
+  pair.a = half(true, pair.planted.to_a);
+  pair.b = half(false, pair.planted.to_b);
+  pair.truth = to_origins(pair.a, pair.b, pair.planted.truth);
+  return pair;
+}
+
 Rigid found_pose(const Pair& pair, const Result& result) {
   return to_origins(pair.a, pair.b, result.candidates.front().pose);
 }
@@ -90,6 +113,18 @@ TEST(Worn, AlikeBreaksThatAFineScanTellsApartAreNoJoin) {
   ASSERT_FALSE(result.candidates.empty());
   EXPECT_EQ(result.verdict, Verdict::Unsure);
   EXPECT_LT(score_of(strength(judge(pair.a, pair.b, pair.planted.truth).evidence)), kSure);
+  EXPECT_EQ(result.breaks, Breaks::Fresh);
+}
+
+TEST(Worn, SmoothFacesThatLieOnEachOtherAreNotAskedAgain) {
+  const Pair pair = smooth_pair();
+  const Joint joint(pair.a, pair.b);
+  EXPECT_LT(score_of(judge(joint, pair.truth).as_rival), kSure) << "what agrees is large shape alone";
+  EXPECT_GT(score_of(strength(judge(joint.worn(), pair.truth).evidence)), kSure)
+      << "the larger distances hide it";
+  EXPECT_LT(score_of(strength(judge(pair.a, pair.b, pair.planted.truth).evidence)), kSure);
+  const Result result = match(pair.a, pair.b, {}, Context{});
+  EXPECT_NE(result.verdict, Verdict::Join);
   EXPECT_EQ(result.breaks, Breaks::Fresh);
 }
 
