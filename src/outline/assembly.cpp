@@ -41,11 +41,12 @@ struct Bundle {
   std::size_t first = 0;
   std::size_t second = 0;
   Planar moved;              // second -> first
-  double evidence = 0.0;     // of the search for pairs, see evidence_of()
+  double evidence = 0.0;     // of the links, at most once a pair
   double information = 0.0;  // of the contacts, nats
   std::size_t seed = 0;      // the link that it is made around
 
-  double strength() const { return evidence + kOfContacts * information; }
+  /// Whatever lies along the other touches it, so contacts say no more than the search does.
+  double strength() const { return evidence + std::min(evidence, kOfContacts * information); }
 };
 
 /// The most that one of two pieces' links in a bundle tells.
@@ -148,7 +149,7 @@ class Assembler {
         if (angle_between(moves[k], moves[other]) >= kSameTurn) continue;
         const Link& link = links_[indices[other]];
         Told& most = told[{link.a, link.b}];
-        most.evidence = std::max(most.evidence, detail::evidence_of(link.score));
+        most.evidence = std::max(most.evidence, link.evidence);
         most.information = std::max(most.information, link.information);
       }
       for (const auto& [pair, most] : told) {

@@ -117,7 +117,7 @@ TEST(Assembly, WeakCandidatesThatAgreeJoinAPieceThatOneAloneDoesNot) {
   };
   std::vector<PairResult> pairs(6);  // (0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)
   AssemblyOptions options;
-  options.least_strength = 30.0;
+  options.least_strength = 20.0;
   pairs[0] = candidate(0, 1, 1.0);
   pairs[1] = candidate(0, 2, 1.0);
   pairs[4] = candidate(1, 3, 0.7);
@@ -126,6 +126,24 @@ TEST(Assembly, WeakCandidatesThatAgreeJoinAPieceThatOneAloneDoesNot) {
   const Assembly assembly = assemble(board.pieces, pairs, options, Context());
   EXPECT_TRUE(assembly.unplaced.empty());
   EXPECT_LT(misplaced(board, assembly, 0, 3), 0.5);
+}
+
+// At most one of two places along one border is right.
+TEST(Assembly, CandidatesOfOneBorderTakeFromEachOther) {
+  const planted::Board board = planted::broken_board(2, 1, 0.05, 43);
+  std::vector<PairResult> pairs(1);
+  JoinCandidate candidate;
+  candidate.pose = inverse(board.poses[0]) * board.poses[1];
+  candidate.score = 0.95;
+  candidate.boundary = {0.0, 0.0, 100.0, 0, 0};
+  pairs[0].candidates = {candidate};
+  AssemblyOptions options;
+  options.least_strength = 16.0;
+  ASSERT_TRUE(assemble(board.pieces, pairs, options, Context()).unplaced.empty());
+  JoinCandidate beside = candidate;
+  beside.pose = Planar{0.0, {30.0, 300.0}, false} * candidate.pose;
+  pairs[0].candidates = {candidate, beside};
+  EXPECT_EQ(assemble(board.pieces, pairs, options, Context()).unplaced.size(), 2U);
 }
 
 TEST(Assembly, GivesAJoinTheScoreOfItsPairAndAPieceTheChanceThatOneIsTrue) {

@@ -90,6 +90,33 @@ struct Level {
   bool bent = false;         ///< both borders, by more than their pixels' steps may bend straight ones
 };
 
+/// What a sample tells, natural logarithm.
+double told_by(double correlation) {
+  const double r = std::clamp(correlation, 0.0, 0.999);
+  return -0.5 * std::log(1.0 - r * r);
+}
+
+/// What a sample tells at the best place farther along the boundary, beyond what the best of so many tells by chance: borders that repeat,
+/// as teeth and perforations do, agree there as well.
+/// \param a, b  turning in step   \param here  their correlation so
+double told_farther_along(std::span<const double> a, std::span<const double> b, double here) {
+  constexpr double kLeft = 0.5;  // of the correlation, what is left where a shift is one to another place
+  double most = 0.0;
+  for (const auto& [still, moved] : {std::pair(a, b), std::pair(b, a)}) {
+    bool elsewhere = false;
+    for (std::size_t shift = 1; shift <= still.size() / 2; ++shift) {
+      Sums sums;
+      for (std::size_t i = shift; i < still.size(); ++i) sums.add(still[i], moved[i - shift]);
+      const double there = sums.correlation();
+      elsewhere = elsewhere || there < kLeft * here;
+      if (!elsewhere || sums.count < kLeastSamples) continue;
+      const double chance = std::log(static_cast<double>(still.size())) / sums.carrying();
+      most = std::max(most, told_by(there) - chance);
+    }
+  }
+  return most;
+}
+
 Level level_at(const ScaledBorder& a, const ScaledBorder& b, const std::vector<Contact>& contacts,
                std::size_t k) {
   const ScaleSignal& signal_a = (*a.scales)[k];
@@ -119,9 +146,10 @@ Level level_at(const ScaledBorder& a, const ScaledBorder& b, const std::vector<C
   const double straight =
       a.pixels.any || b.pixels.any ? std::ldexp(kRaster, -static_cast<int>(k)) : straight_turning(k);
   if (least < straight) return {};
-  const double r = std::clamp(sums.correlation(), 0.0, 0.999);
+  const double r = sums.correlation();
+  const double told = told_by(r) - told_farther_along(turning_a, turning_b, r);
   const double carrying = sums.carrying();
-  return {-0.5 * std::log(1.0 - r * r), kIndependent * carrying,
+  return {std::max(0.0, told), kIndependent * carrying,
           carrying / sums.count * independent_samples(turning_a, turning_b),
           sums.size_a() > turning_of_steps(a, k) && sums.size_b() > turning_of_steps(b, k)};
 }

@@ -7,6 +7,7 @@
 
 #include "core/parallel.hpp"
 #include "outline/detail/odds.hpp"
+#include "outline/detail/rivals.hpp"
 #include "outline/join_fit.hpp"
 
 namespace rejoin::outline::detail {
@@ -82,13 +83,23 @@ std::vector<Link> links_at(const std::vector<Silhouette>& shapes, const std::vec
         if (contact.intrusion > options.most_intrusion * contact.length) continue;
         if (!fills_hole(pairs[i].candidates[k], shapes[a], shapes[b], contact)) continue;
         found[i].push_back(
-            {a, b, pose, contact.information, contact.length, score, pairs[i].candidates[k].boundary});
+            {a, b, pose, contact.information, contact.length, score, pairs[i].candidates[k].boundary, 0.0});
       }
     }
   });
   std::vector<Link> links;
   for (const std::vector<Link>& some : found) links.insert(links.end(), some.begin(), some.end());
   return links;
+}
+
+/// \pre shapes, perimeters and links are known
+void weigh_rivals(LinkedPieces& linked) {
+  parallel_for(linked.links.size(), 16, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      Link& link = linked.links[i];
+      link.evidence = std::max(0.0, evidence_of(link.score) - odds_taken(link, linked));
+    }
+  });
 }
 
 /// What the best links of each piece say together.
@@ -150,6 +161,7 @@ LinkedPieces link_pieces(const std::vector<Piece>& pieces, const std::vector<Pai
   result.links = links_at(result.shapes, pairs, result.tolerance, options);
   result.perimeters.reserve(pieces.size());
   for (const Piece& piece : pieces) result.perimeters.push_back(perimeter(piece.outline.points));
+  weigh_rivals(result);
   return result;
 }
 
@@ -161,7 +173,12 @@ bool add_links(LinkedPieces& linked, const std::vector<PairResult>& pairs, const
   const std::vector<Link> more = links_at(linked.shapes, doubted, linked.tolerance, options);
   linked.links.insert(linked.links.end(), more.begin(), more.end());
   std::ranges::stable_sort(linked.links, {}, [](const Link& link) { return std::pair(link.a, link.b); });
+  weigh_rivals(linked);
   return !more.empty();
+}
+
+bool agree(const Link& p, const Link& q, const LinkedPieces& pieces) {
+  return p.a == q.a && p.b == q.b && same_place(pieces.shapes[p.b], p.pose, q.pose);
 }
 
 bool lies_so(const Link& link, const LinkedPieces& pieces, const Layout& placed) {

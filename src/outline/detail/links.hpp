@@ -18,11 +18,12 @@ inline constexpr double kSameShift = 0.04;
 struct Link {
   std::size_t a;
   std::size_t b;
-  Planar pose;         ///< b -> a
-  double information;  ///< of the contact, nats
-  double length;       ///< of the contact, file units
-  double score;        ///< of the candidate, by the search for pairs
-  Boundary boundary;   ///< of the candidate: where the two meet
+  Planar pose;            ///< b -> a
+  double information;     ///< of the contact, nats
+  double length;          ///< of the contact, file units
+  double score;           ///< of the candidate, by the search for pairs
+  Boundary boundary;      ///< of the candidate: where the two meet
+  double evidence = 0.0;  ///< evidence_of() the candidate, less what its rivals take of it
 };
 
 /// How many times likelier a join is by a candidate of this score than by one that says nothing, natural logarithm; >= 0.  It adds up
@@ -48,6 +49,9 @@ LinkedPieces link_pieces(const std::vector<Piece>& pieces, const std::vector<Pai
 /// Adds the candidates of a second search, measured at the same scale and believed less.
 /// \return whether there are such
 bool add_links(LinkedPieces& linked, const std::vector<PairResult>& pairs, const AssemblyOptions& options);
+
+/// Whether two links of the same pieces lay them in about the same way.
+bool agree(const Link& p, const Link& q, const LinkedPieces& pieces);
 
 /// Whether a link's pieces lie about as it says.
 bool lies_so(const Link& link, const LinkedPieces& pieces, const Layout& placed);

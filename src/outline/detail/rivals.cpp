@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
+#include <ranges>
 
 #include "outline/detail/odds.hpp"
 
@@ -47,12 +49,15 @@ Stretch stretch_on(const Link& link, std::size_t piece, const LinkedPieces& piec
   return {begin - std::floor(begin), boundary.length / pieces.perimeters[piece]};
 }
 
-}  // namespace
+using IsNone = std::function<bool(const Link& other)>;
 
-std::vector<AssemblyRival> rivals_of(const Link& link, const LinkedPieces& pieces, const Layout& placed) {
+/// Links that ask for a link's border: the best score of each piece on either of the link's.
+std::map<std::pair<std::size_t, std::size_t>, double> best_rivals(const Link& link,
+                                                                  const LinkedPieces& pieces,
+                                                                  const IsNone& is_none) {
   std::map<std::pair<std::size_t, std::size_t>, double> best;
   for (const Link& other : pieces.links) {
-    if (other.score < kLikely || lies_so(other, pieces, placed)) continue;
+    if (other.score < kLikely || is_none(other)) continue;
     for (const std::size_t at : {link.a, link.b}) {
       if (other.a != at && other.b != at) continue;
       if (!same_border(stretch_on(link, at, pieces), stretch_on(other, at, pieces))) continue;
@@ -61,6 +66,23 @@ std::vector<AssemblyRival> rivals_of(const Link& link, const LinkedPieces& piece
       if (other.a == link.a && other.b == link.b) break;  // told once
     }
   }
+  return best;
+}
+
+/// That one of them is true.
+template <class Scores>
+double odds_of_any(const Scores& scores) {
+  constexpr double kLeast = 1e-12;
+  double odds = 0.0;
+  for (const double score : scores) odds += std::exp(odds_of_score(std::clamp(score, kLeast, 1.0 - kLeast)));
+  return odds;
+}
+
+}  // namespace
+
+std::vector<AssemblyRival> rivals_of(const Link& link, const LinkedPieces& pieces, const Layout& placed) {
+  const auto best =
+      best_rivals(link, pieces, [&](const Link& other) { return lies_so(other, pieces, placed); });
   std::vector<AssemblyRival> rivals;
   rivals.reserve(best.size());
   for (const auto& [names, score] : best) rivals.push_back({names.first, names.second, score});
@@ -68,12 +90,14 @@ std::vector<AssemblyRival> rivals_of(const Link& link, const LinkedPieces& piece
   return rivals;
 }
 
+double odds_taken(const Link& link, const LinkedPieces& pieces) {
+  const auto best = best_rivals(link, pieces, [&](const Link& other) { return agree(link, other, pieces); });
+  return std::log1p(odds_of_any(std::views::values(best)));
+}
+
 double contested_score(double score, const std::vector<AssemblyRival>& rivals) {
   constexpr double kLeast = 1e-12;
-  double odds = 0.0;
-  for (const AssemblyRival& rival : rivals) {
-    odds += std::exp(odds_of_score(std::clamp(rival.score, kLeast, 1.0 - kLeast)));
-  }
+  const double odds = odds_of_any(std::views::transform(rivals, &AssemblyRival::score));
   if (odds <= 0.0) return score;
   const double alone = odds_of_score(std::clamp(score, kLeast, 1.0 - kLeast));
   return std::min(score, score_of_odds(kTempered * (alone - std::log(odds))));

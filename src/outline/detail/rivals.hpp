@@ -14,6 +14,10 @@ namespace rejoin::outline::detail {
 /// \return the best of each piece, best first
 std::vector<AssemblyRival> rivals_of(const Link& link, const LinkedPieces& pieces, const Layout& placed);
 
+/// What the links that ask for a link's border, wherever the pieces lie, take of its evidence: with o the odds that one of them is true,
+/// log(1 + o), as at most one of them and the link is.
+double odds_taken(const Link& link, const LinkedPieces& pieces);
+
 /// Score of a join whose border others fit, too: with l the log-odds of its score and r those that one of the rivals is true, the
 /// lesser of l and (l - r) / 3.  A third, because near-identical breaks agree with each other for one reason, so that less is behind
 /// their odds' difference than it says.
