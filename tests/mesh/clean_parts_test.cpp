@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "shapes.hpp"
@@ -39,6 +40,26 @@ TEST(Clean, DropsSpecksFarFromThePieceAndSaysSo) {
     EXPECT_NE(loaded.warnings[0].find("a.ply: dropped 5 of 1285 faces, in 2 small parts"), std::string::npos)
         << loaded.warnings[0];
   }
+}
+
+TEST(Clean, DropsDustThatFloatsRoundThePieceAndKeepsPatches) {
+  const Mesh piece = test::icosphere(50, 5);
+  Mesh dusty = piece;
+  for (int k = 0; k < 80; ++k) {
+    const float turn = 0.4F * static_cast<float>(k);
+    const float height = -0.9F + 1.8F * static_cast<float>(k) / 79.0F;
+    const float across = std::sqrt(1.0F - height * height);
+    const glm::vec3 out(across * std::cos(turn), across * std::sin(turn), height);
+    add_strip(dusty, (k % 4 == 0 ? 66.0F : 85.0F) * out, 0.3F, 2);
+  }
+  const std::size_t clean = dusty.faces.size() - 160;
+  add_strip(dusty, {0, 0, 66}, 6.0F, 4);  // a patch
+  add_strip(dusty, {0, 53, 0}, 0.3F, 2);  // a crumb on it
+  const Loaded loaded = through_ply(dusty);
+  EXPECT_EQ(loaded.mesh.faces.size(), clean + 6);
+  ASSERT_EQ(loaded.warnings.size(), 1U);
+  EXPECT_NE(loaded.warnings[0].find("dropped 160 of 20646 faces, in 80 small parts"), std::string::npos)
+      << loaded.warnings[0];
 }
 
 // A piece with two cavities, one of them with a lump in it, and an open patch inside, that a scanner saw through a crack.

@@ -156,7 +156,7 @@ void clean_faces(Loaded& loaded, const std::string& name, Content content) {
   const Specks specks = content != Content::Several ? drop_specks(mesh) : Specks{};
   if (specks.parts > 0) {
     loaded.warnings.push_back(
-        fmt::format("{}: dropped {} of {} faces, in {} far from the rest (remove specks in the scanning "
+        fmt::format("{}: dropped {} of {} faces, in {} off the rest (remove specks in the scanning "
                     "software)",
                     name, specks.faces, before, counted(specks.parts, "small part")));
   }

@@ -1,6 +1,7 @@
 #include "mesh/detail/specks.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -10,12 +11,15 @@
 #include "mesh/detail/parts.hpp"
 #include "mesh/detail/point_box.hpp"
 #include "mesh/detail/weld.hpp"
+#include "mesh/point_index.hpp"
 
 namespace rejoin::mesh::detail {
 namespace {
 
 constexpr double kSmall = 0.01;  // of the whole area, or of all points
 constexpr double kApart = 0.1;   // of the diagonal of the larger parts' box
+constexpr double kDust = 5e-4;   // of the whole area: no patch of a piece
+constexpr double kAfloat = 5.0;  // edges of a mean triangle
 
 /// Which parts are specks.
 std::vector<bool> specks_among(const std::vector<Part>& parts) {
@@ -45,6 +49,36 @@ std::vector<bool> specks_among(const std::vector<Part>& parts) {
   return result;
 }
 
+/// Parts that are too small for a patch of the piece and float beside the surface of all larger ones.
+std::vector<bool> dust_among(const Mesh& mesh, const std::vector<std::uint32_t>& part_of_face,
+                             const std::vector<Part>& parts) {
+  double all = 0;
+  for (const Part& part : parts) all += part.weight;
+  std::vector<bool> result(parts.size());
+  for (std::size_t k = 0; k < parts.size(); ++k) result[k] = parts[k].weight < kDust * all;
+  if (std::ranges::count(result, true) == 0) return result;
+  std::vector<glm::vec3> surface;
+  double area = 0;
+  std::size_t faces = 0;
+  for (std::size_t k = 0; k < parts.size(); ++k) area += result[k] ? 0.0 : parts[k].weight;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    if (result[part_of_face[f]]) continue;
+    ++faces;
+    for (int corner = 0; corner < 3; ++corner) surface.push_back(mesh.vertices[mesh.faces[f][corner]]);
+  }
+  if (surface.empty()) return std::vector<bool>(parts.size(), false);
+  const auto afloat =
+      static_cast<float>(kAfloat * std::sqrt(4.0 / std::sqrt(3.0) * area / static_cast<double>(faces)));
+  const PointIndex index(surface);
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    if (!result[part_of_face[f]]) continue;
+    for (int corner = 0; corner < 3; ++corner) {
+      if (index.nearest_within(mesh.vertices[mesh.faces[f][corner]], afloat)) result[part_of_face[f]] = false;
+    }
+  }
+  return result;
+}
+
 void drop_points(Mesh& cloud, const std::vector<bool>& dropped) {
   const auto keep = [&](auto& values) {
     if (values.empty()) return;
@@ -63,8 +97,12 @@ void drop_points(Mesh& cloud, const std::vector<bool>& dropped) {
 
 Specks drop_specks(Mesh& mesh) {
   const std::vector<std::uint32_t> part_of_face = part_of_faces(mesh);
-  const std::vector<Part> parts = measured_parts(mesh, part_of_face);
-  const std::vector<bool> dropped = specks_among(parts);
+  std::vector<Part> parts = measured_parts(mesh, part_of_face);
+  std::vector<bool> dropped = dust_among(mesh, part_of_face, parts);
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    if (dropped[k]) parts[k] = {};
+  const std::vector<bool> far = specks_among(parts);
+  for (std::size_t k = 0; k < parts.size(); ++k) dropped[k] = dropped[k] || far[k];
   Specks specks;
   specks.parts = static_cast<std::size_t>(std::count(dropped.begin(), dropped.end(), true));
   if (specks.parts == 0) return specks;
