@@ -176,7 +176,7 @@ Rigid Joint::align(const Rigid& start, const AlignOptions& options) const {
   Sampled of_b = sampled(s, pose, options.facet_b, options);
   if (of_b.broken.list.size() < 12) return pose;
   std::optional<Sampled> of_a;
-  if (options.both) of_a = sampled(*exchanged_, inverse(pose), -1, options);
+  if (options.both) of_a = sampled(*exchanged_, inverse(pose), options.facet_a, options);
   for (int k = 0; k < options.iterations; ++k) {
     const double part = options.iterations > 1 ? static_cast<double>(k) / (options.iterations - 1) : 1.0;
     const double reach = options.reach_start * std::pow(options.reach_end / options.reach_start, part);

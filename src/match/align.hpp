@@ -21,6 +21,7 @@ struct AlignOptions {
   int most_samples = 400;  ///< of B's samples; 0: all
   bool core_only = false;  ///< leave out what is next to another facet: worn edges lie
   int facet_b = -1;    ///< only samples of this facet of B (match/cuts.hpp); -1: of all its broken surface
+  int facet_a = -1;    ///< the same of A's, where `both`
   bool quick = false;  ///< nearest points are looked up in tables: they are nearly the nearest
   bool both =
       false;      ///< A's samples are compared with B's, too: each finds what the other has no samples for

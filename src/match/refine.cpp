@@ -104,12 +104,12 @@ std::vector<Pass> passes(double tolerance, int most) {
   // A reach much wider than the sweep's error would pull in surfaces beside the joint, the other wall of a thin piece above
   // all; so would other facets at first.  Once it lies there, the rest of a splintery break tells what a splinter alone cannot.
   return {
-      {{.reach_start = 10.0 * t, .reach_end = 4.0 * t, .iterations = 8, .most_samples = 120, .quick = true},
+      {{.reach_start = 10.0 * t, .reach_end = 4.0 * t, .iterations = 8, .most_samples = 120, .quick = true, .both = true},
        true,
        300,
        true,
        16 * kept},
-      {{.reach_start = 8.0 * t, .reach_end = 3.0 * t, .iterations = 12, .most_samples = 300, .quick = true},
+      {{.reach_start = 8.0 * t, .reach_end = 3.0 * t, .iterations = 12, .most_samples = 300, .quick = true, .both = true},
        true,
        1500,
        false,
@@ -125,6 +125,7 @@ void refine(std::vector<Hypothesis>& list, const Joint& joint, const Pass& pass,
       if (context.cancelled() && k >= kEvenIfCancelled) continue;
       Hypothesis& hypothesis = list[k];
       AlignOptions options = pass.align;
+      options.facet_a = pass.facet_aligned ? hypothesis.facet_a : -1;
       options.facet_b = pass.facet_aligned ? hypothesis.facet_b : -1;
       const int weighed_facet = pass.facet_weighed ? hypothesis.facet_b : -1;
       const bool all = pass.evidence_samples == 0 && !pass.facet_weighed;

@@ -73,6 +73,32 @@ TEST(Refine, SettlesNearerToTheTruthThanByEitherOnesSamples) {
   EXPECT_LT(settled, by_a);
 }
 
+/// The broken facet of half a block that looks along a direction most.
+int facet_along(const Fragment& fragment, const glm::dvec3& direction) {
+  const auto& facets = fragment.facets.facets;
+  const auto looks = [&](const mesh::Facet& f) { return f.fracture ? glm::dot(f.normal, direction) : -1.0; };
+  return static_cast<int>(std::ranges::max_element(facets, {}, looks) - facets.begin());
+}
+
+TEST(Refine, FirstRoundsEndAlikeWhicheverPieceMoves) {
+  const Fragment large = prepare("large", testing::half_block(true, 96), Context{});
+  const Fragment small = prepare("small", testing::half_block(false, 96, 0.35), Context{});
+  const int of_large = facet_along(large, {0, 0, 1});
+  const int of_small = facet_along(small, {0, 0, -1});
+  const Rigid start{axis_rotation(glm::normalize(glm::dvec3(1, 0.5, 0.3)), 4.0 * kDegree), {1.0, 0.5, 0.0}};
+  const auto aligned = [&](const Fragment& a, const Fragment& b, int facet_a, int facet_b,
+                           const Rigid& from) {
+    const Joint joint(a, b);
+    std::vector<Hypothesis> list{{to_origins(a, b, from), {}, 0.0, facet_a, facet_b}};
+    refine(list, joint, passes(joint.tolerance(), 8).front(), Context{});
+    return to_files(a, b, list.front().pose);
+  };
+  const Rigid there = aligned(large, small, of_large, of_small, start);
+  const Rigid back = inverse(aligned(small, large, of_small, of_large, inverse(start)));
+  EXPECT_GT(worst_offset(there, start, small.surface), 1.0);
+  EXPECT_LT(worst_offset(there, back, small.surface), 0.2);
+}
+
 TEST(Refine, WornEdgesDoNotPressTheSurfacesIntoEachOther) {
   Pair pair = make_pair(6);
   const Rigid to_block = inverse(pair.planted.to_b);
