@@ -17,7 +17,22 @@ constexpr double kWorthHearing = -6.0;   // certainty from which others are aske
 constexpr double kTogether = 1.0;        // what two unsure joins need together above the limit for one
 constexpr double kTogetherOdds = -5.0;   // of each, at least
 constexpr double kTogetherWorth = -8.0;  // of both, for the third pair to be asked
+constexpr double kElsewhere = 3.0;       // of the distances within which poses are the same
 constexpr std::size_t kProposals = 24;   // per two groups
+
+/// What is left of links' log-odds as at most one pose of a pair is true: of several that are alike, each may be the one.  None becomes noise
+/// by that, for the pose before it may be refused.
+std::vector<double> among_rivals(const std::vector<Link>& links, std::vector<double> odds) {
+  std::map<std::pair<std::size_t, std::size_t>, double> all;
+  for (std::size_t k = 0; k < links.size(); ++k)
+    all[std::minmax(links[k].a, links[k].b)] += std::exp(odds[k]);
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    const double rivals = all[std::minmax(links[k].a, links[k].b)] - std::exp(odds[k]);
+    const double left = odds[k] - std::log1p(std::max(0.0, rivals));
+    odds[k] = std::min(odds[k], std::max(left, kLeastOdds));
+  }
+  return odds;
+}
 
 }  // namespace
 
@@ -29,6 +44,9 @@ Grower::Grower(const std::vector<Piece>& pieces, const std::vector<Link>& links,
   for (std::size_t k = 0; k < links.size(); ++k) {
     const double odds = log_odds(links[k].score);
     odds_.push_back(links[k].holds ? odds : std::min(odds, doubted));
+  }
+  odds_ = among_rivals(links, odds_);
+  for (std::size_t k = 0; k < links.size(); ++k) {
     if (must(unwanted_, k)) continue;
     if (odds_[k] >= kLeastOdds || must(wanted_, k)) links_of_[key_of(links[k].a, links[k].b)].push_back(k);
   }
@@ -247,12 +265,34 @@ Grower::Answers Grower::answers(const State& state, std::vector<Question>& quest
   return result;
 }
 
+/// What is left of the best proposal's certainty, as its two groups lie in one way at most: where a pattern repeats, neighbours bear out
+/// each of several places.
+/// \param list  of the two groups, best first, at least one
+double Grower::among_places(const State& state, const Key& key, const std::vector<Proposal>& list) const {
+  const Proposal& best = list.front();
+  const Link& link = links_[best.link];
+  const std::size_t moved = state.growth.group[link.a] == key.second ? link.a : link.b;
+  const glm::dvec3 centre = state.growth.poses[moved](pieces_[moved].centre());
+  const Rigid there = transform(state, best.link, key.first);
+  const double far = kElsewhere * options_.same_shift *
+                     std::min(pieces_[link.a].fragment().diameter, pieces_[link.b].fragment().diameter);
+  double others = 0.0;
+  for (const Proposal& other : list) {
+    const Rigid elsewhere = transform(state, other.link, key.first);
+    if (angle_between(there, elsewhere) > kElsewhere * options_.same_turn_deg * kDegree ||
+        glm::distance(there(centre), elsewhere(centre)) > far)
+      others += std::exp(other.alone + other.agreeing);
+  }
+  return best.certainty() - std::log1p(others);
+}
+
 /// Uses the most certain proposal of all, or finds that it does not fit.  False: none is certain enough.
 bool Grower::try_best(State& state) {
   std::vector<Proposal>* best = nullptr;
   double most = log_odds(options_.sure) - 1e-9;
   for (auto& [key, list] : state.proposals) {
     if (list.empty() || list.front().certainty() <= most) continue;
+    if (among_places(state, key, list) < log_odds(options_.sure) - 1e-9) continue;
     most = list.front().certainty();
     best = &list;
   }

@@ -119,6 +119,7 @@ class Grower {
   Question question(const State& state, std::vector<std::size_t> links) const;
   std::optional<Heard> answer(const State& state, const Question& question) const;
   Answers answers(const State& state, std::vector<Question>& questions, const Context& context);
+  double among_places(const State& state, const Key& key, const std::vector<Proposal>& list) const;
   bool try_best(State& state);
   bool try_two(State& state, const Context& context);
   std::vector<Two> unsure_together(const State& state, const Context& context);

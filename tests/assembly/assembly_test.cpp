@@ -159,6 +159,34 @@ TEST(Assemble, AJoinOfHighScoreThatDoesNotHoldNeedsAWitness) {
   EXPECT_LT(ball().worst_turn(held), 0.5);
 }
 
+TEST(Assemble, OfSeveralPosesOfAPairThatAreAlikeNoneIsSure) {
+  const Corner corner = corner_of(ball());
+  std::vector<Link> links{ball().true_link(corner.a, corner.b, 0.999)};
+  ASSERT_EQ(run(ball(), links).groups, 1);
+  for (const double turn_deg : {30.0, 60.0, 90.0})
+    links.push_back(ball().false_link(corner.a, corner.b, 0.999, turn_deg, 0.6));
+  EXPECT_EQ(run(ball(), links).groups, 0);
+}
+
+// As patterns repeat: two pairs bear out one place, and the same two another one as well.
+TEST(Assemble, OfTwoPlacesThatNeighboursBearOutAlikeNoneIsSure) {
+  const Corner corner = corner_of(ball());
+  const auto away = [&](std::size_t from, double shift, double score) {
+    const glm::dmat3 turn = axis_rotation(glm::normalize(glm::dvec3(1, 2, 3)), shift);
+    const Rigid place{turn, shift * 10.0 * ball().to_world[corner.c].translation /
+                                glm::length(ball().to_world[corner.c].translation)};
+    return Link{from, corner.c, inverse(ball().to_world[from]) * place * ball().to_world[corner.c], score};
+  };
+  std::vector<Link> links{ball().true_link(corner.a, corner.b, 0.9999), away(corner.a, 2.0, 0.97),
+                          away(corner.b, 2.0, 0.97)};
+  ASSERT_EQ(run(ball(), links).placements[corner.c].group, 0) << "no place else is known";
+  links.push_back(away(corner.a, 3.0, 0.97));
+  links.push_back(away(corner.b, 3.0, 0.97));
+  const Result result = run(ball(), links);
+  EXPECT_EQ(result.placements[corner.a].group, 0);
+  EXPECT_EQ(result.placements[corner.c].group, -1);
+}
+
 TEST(Assemble, UnsureJoinsThatCloseALoopAreUsed) {
   const Corner corner = corner_of(ball());
   const std::vector<Link> loop{ball().true_link(corner.a, corner.b, 0.7),
