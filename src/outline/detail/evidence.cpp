@@ -24,6 +24,8 @@ constexpr double kRaster = 0.03;
 /// coarser ones shows that the border is not straight.
 constexpr double kSteps = 0.8;
 constexpr std::size_t kWitnesses = 3;
+/// Of what a place tells, what another one tells at least where borders repeat; of others the best of many places has less by chance.
+constexpr double kRepeats = 0.5;
 
 /// Correlation of paired numbers, summed up one pair at a time.
 struct Sums {
@@ -100,6 +102,7 @@ double told_by(double correlation) {
 /// as teeth and perforations do, agree there as well.
 /// \param a, b  turning in step   \param here  their correlation so
 double told_farther_along(std::span<const double> a, std::span<const double> b, double here) {
+  constexpr double kTied = 3.0;  // samples that a correlation takes itself (Fisher)
   constexpr double kLeft = 0.5;  // of the correlation, what is left where a shift is one to another place
   double most = 0.0;
   for (const auto& [still, moved] : {std::pair(a, b), std::pair(b, a)}) {
@@ -109,8 +112,9 @@ double told_farther_along(std::span<const double> a, std::span<const double> b, 
       for (std::size_t i = shift; i < still.size(); ++i) sums.add(still[i], moved[i - shift]);
       const double there = sums.correlation();
       elsewhere = elsewhere || there < kLeft * here;
-      if (!elsewhere || sums.count < kLeastSamples) continue;
-      const double chance = std::log(static_cast<double>(still.size())) / sums.carrying();
+      const double free = sums.carrying() - kTied;
+      if (!elsewhere || free < 1.0) continue;
+      const double chance = std::log(static_cast<double>(still.size())) / free;
       most = std::max(most, told_by(there) - chance);
     }
   }
@@ -147,7 +151,9 @@ Level level_at(const ScaledBorder& a, const ScaledBorder& b, const std::vector<C
       a.pixels.any || b.pixels.any ? std::ldexp(kRaster, -static_cast<int>(k)) : straight_turning(k);
   if (least < straight) return {};
   const double r = sums.correlation();
-  const double told = told_by(r) - told_farther_along(turning_a, turning_b, r);
+  const double here = told_by(r);
+  const double elsewhere = told_farther_along(turning_a, turning_b, r);
+  const double told = elsewhere > kRepeats * here ? here - elsewhere : here;
   const double carrying = sums.carrying();
   return {std::max(0.0, told), kIndependent * carrying,
           carrying / sums.count * independent_samples(turning_a, turning_b),
