@@ -44,6 +44,7 @@ struct Bundle {
   double evidence = 0.0;     // of the links, at most once a pair
   double information = 0.0;  // of the contacts, nats
   std::size_t seed = 0;      // the link that it is made around
+  std::size_t sure = 0;      // pairs of pieces with a sure link
 
   /// Whatever lies along the other touches it, so contacts say no more than the search does.
   double strength() const { return evidence + std::min(evidence, kOfContacts * information); }
@@ -154,6 +155,7 @@ class Assembler {
       }
       for (const auto& [pair, most] : told) {
         bundle.evidence += most.evidence;
+        bundle.sure += most.evidence >= detail::evidence_of(kSureScore) ? 1 : 0;
         bundle.information += most.information;
       }
       bundles.push_back(bundle);
@@ -169,9 +171,13 @@ class Assembler {
   bool try_merge(const Bundle& bundle) {
     // A group that is far off shows before anything is moved.
     const auto fits = [&](const PlacedContact& c) { return !intrudes(c.contact, 3.0); };
-    if (!layout_.visit_contacts(bundle.first, bundle.second, bundle.moved, fits)) return false;
+    const bool near = layout_.visit_contacts(bundle.first, bundle.second, bundle.moved, fits);
+    if (!near && bundle.sure < 2) return false;
     Layout trial = layout_;
     trial.merge(bundle.first, bundle.second, bundle.moved);
+    // A ring of small pieces that closes: its error has added up, and each of two sure joins says that it is one.
+    if (!near)
+      for (const double reach : {8.0, 4.0}) trial.spread_error(bundle.first, reach * tolerance_, 2);
     spread(trial, bundle.first, 2.0 * tolerance_, 2);
     spread(trial, bundle.first, tolerance_, 2);
     std::vector<PlacedContact> across;
@@ -241,7 +247,8 @@ class Assembler {
       const Link& seed = links_[bundle.seed];
       const std::size_t first = layout_.group(seed.a);
       Bundle again{first,           layout_.group(seed.b), motion(seed, first),
-                   bundle.evidence, bundle.information,    bundle.seed};
+                   bundle.evidence, bundle.information,    bundle.seed,
+                   bundle.sure};
       if (again.first != again.second && try_merge(again)) {
         for (const std::size_t piece : in_the_way) layout_.take_off(piece);
         for (std::size_t g = 0; g < layout_.size(); ++g)
@@ -375,24 +382,11 @@ std::vector<AssemblyRepeat> repeats_of(std::size_t pieces, const std::vector<std
   return repeats;
 }
 
-/// \param unplaced  ascending
-std::vector<AssemblyRival> refused_of(const LinkedPieces& linked, const std::vector<std::size_t>& unplaced) {
-  std::vector<AssemblyRival> refused;
-  for (const std::size_t piece : unplaced) {
-    AssemblyRival best;
-    for (const Link& link : linked.links)
-      if ((link.a == piece || link.b == piece) && link.score > best.score)
-        best = {piece, link.a == piece ? link.b : link.a, link.score};
-    if (best.score >= kSureScore) refused.push_back(best);
-  }
-  return refused;
-}
-
 Assembly assemble_linked(const std::vector<Piece>& pieces, const LinkedPieces& linked,
                          const AssemblyOptions& options, const Context& context) {
   const Layout layout = Assembler(linked, options).run(context);
   Assembly assembly = Description(pieces, linked, layout).assembly();
-  if (!context.cancelled()) assembly.refused = refused_of(linked, assembly.unplaced);
+  if (!context.cancelled()) assembly.refused = detail::refused_of(linked, assembly.unplaced);
   assembly.similarity = detail::similarity(linked);
   assembly.cancelled = context.cancelled();
   return assembly;

@@ -146,6 +146,28 @@ TEST(Assembly, CandidatesOfOneBorderTakeFromEachOther) {
   EXPECT_EQ(assemble(board.pieces, pairs, options, Context()).unplaced.size(), 2U);
 }
 
+// Two rows of pieces, each with a little error at every join, that adds up to more than borders may lie in each other.
+TEST(Assembly, RowsWhoseErrorsAddUpJoinWhereSeveralSureJoinsSaySo) {
+  const std::size_t columns = 12;
+  const planted::Board board = planted::broken_board(static_cast<int>(columns), 2, 0.05, 45);
+  const std::size_t count = board.pieces.size();
+  std::vector<PairResult> pairs;
+  for (std::size_t a = 0; a < count; ++a) {
+    for (std::size_t b = a + 1; b < count; ++b) {
+      pairs.emplace_back();
+      const bool beside = b == a + 1 && b != columns;
+      if (!beside && b != a + columns) continue;
+      JoinCandidate join;
+      join.pose = inverse(board.poses[a]) * board.poses[b];
+      join.score = beside ? 0.9999 : 0.95;
+      pairs.back().candidates = {join};
+    }
+  }
+  const Assembly assembly = assemble(board.pieces, pairs, {}, Context());
+  EXPECT_TRUE(assembly.unplaced.empty());
+  for (std::size_t i = 1; i < count; ++i) EXPECT_LT(misplaced(board, assembly, 0, i), 1.0) << i;
+}
+
 TEST(Assembly, GivesAJoinTheScoreOfItsPairAndAPieceTheChanceThatOneIsTrue) {
   const planted::Board board = planted::broken_board(2, 1, 0.05, 43);
   std::vector<PairResult> pairs(1);

@@ -103,4 +103,16 @@ double contested_score(double score, const std::vector<AssemblyRival>& rivals) {
   return std::min(score, score_of_odds(kTempered * (alone - std::log(odds))));
 }
 
+std::vector<AssemblyRival> refused_of(const LinkedPieces& linked, const std::vector<std::size_t>& unplaced) {
+  std::vector<AssemblyRival> refused;
+  for (const std::size_t piece : unplaced) {
+    AssemblyRival best;
+    for (const Link& link : linked.links)
+      if ((link.a == piece || link.b == piece) && link.score > best.score)
+        best = {piece, link.a == piece ? link.b : link.a, link.score};
+    if (best.score >= kSureScore) refused.push_back(best);
+  }
+  return refused;
+}
+
 }  // namespace rejoin::outline::detail

@@ -18,6 +18,10 @@ std::vector<AssemblyRival> rivals_of(const Link& link, const LinkedPieces& piece
 /// log(1 + o), as at most one of them and the link is.
 double odds_taken(const Link& link, const LinkedPieces& pieces);
 
+/// Of pieces without a place, those with a sure candidate, and their best.
+/// \param unplaced  ascending
+std::vector<AssemblyRival> refused_of(const LinkedPieces& linked, const std::vector<std::size_t>& unplaced);
+
 /// Score of a join whose border others fit, too: with l the log-odds of its score and r those that one of the rivals is true, the
 /// lesser of l and (l - r) / 3.  A third, because near-identical breaks agree with each other for one reason, so that less is behind
 /// their odds' difference than it says.
