@@ -19,6 +19,7 @@ constexpr double kAhead = 11.0;     // log-odds of a sure join over those of the
 constexpr double kNext = 0.8;       // of the strength of a sure join, that of the pair's next pose, at most
 constexpr double kRounding = 1e-6;  // strength: what at_most_even() held back has kEven
 constexpr double kLike = 0.5;       // of its strength, what it leaves at most farther along
+constexpr double kLikely = 0.5;     // score from which the shape speaks for a join
 constexpr double kHeld = 0.6;  // of the distance between two pushed poses, what a sure join leaves at most
 
 /// Whether the pair's next pose comes near: of large joints equal poses differ by more than kAhead by chance.
@@ -90,7 +91,9 @@ std::string against(const Evidence& evidence, double score, const std::optional<
   const bool held_back = evidence.doubt != Doubt::None && std::abs(strength(evidence) - kEven) < kRounding;
   if (held_back || evidence.doubt == Doubt::Slide) return told_doubt(evidence);
   const std::string found = objection(evidence);
-  return found.empty() ? "the breaks have too little shape in common" : found;
+  if (!found.empty()) return found;
+  return score < kLikely ? "the breaks have too little shape in common"
+                         : "the breaks have shape in common, but too little to be sure";
 }
 
 Candidate unmeasured(const Fragment& a, const Fragment& b, const Rigid& pose, const Evidence& evidence,

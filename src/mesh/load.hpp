@@ -36,7 +36,7 @@ bool has_scan_name(const std::filesystem::path& path);
 /// Reads a mesh or an oriented cloud by its extension (any case) and cleans it.
 ///
 /// Points that are not finite are left out, with the faces that use them.  Equal vertices are welded (exactly equal ones: nothing depends on the scale), degenerate and duplicate faces dropped, specks
-/// far from the rest dropped (each less than 1 % of the area, farther away than a tenth of the size of the rest), lone vertices farther from the rest than four
+/// far from the rest dropped (each less than 1 % of the area, farther away than a tenth of the size of the rest, or dust that floats beside it), lone vertices farther from the rest than four
 /// times its size, stray points of a cloud, closed surfaces inside the piece (cavities of a CT scan) and vertices of no face dropped, faces wound against their neighbours or a surface that is inside out turned, cloud
 /// normals made unit length, estimated where the file has none, and turned outwards.  Whatever changes the surface is said in a
 /// warning.  Non-manifold and open meshes load whole.

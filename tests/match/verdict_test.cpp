@@ -152,6 +152,7 @@ TEST(Against, TellsWhatKeepsAHighScoreFromBeingAJoin) {
     EXPECT_TRUE(tells(against(held, score_of(strength(held)), stability), words)) << words;
   }
   EXPECT_TRUE(tells(against(sound(), 0.1, stability), "too little shape"));
+  EXPECT_TRUE(tells(against(sound(), 0.98, stability), "shape in common, but too little to be sure"));
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ TEST(Clean, DropsDustThatFloatsRoundThePieceAndKeepsPatches) {
   }
   const std::size_t clean = dusty.faces.size() - 160;
   add_strip(dusty, {0, 0, 66}, 6.0F, 4);  // a patch
-  add_strip(dusty, {0, 53, 0}, 0.3F, 2);  // a crumb on it
+  add_strip(dusty, {0, 52, 0}, 0.3F, 2);  // a crumb on it
   const Loaded loaded = through_ply(dusty);
   EXPECT_EQ(loaded.mesh.faces.size(), clean + 6);
   ASSERT_EQ(loaded.warnings.size(), 1U);
@@ -78,7 +78,7 @@ TEST(Clean, DropsCavitiesAndKeepsOpenPatchesInside) {
   add(test::icosphere(5, 2), {70, 0, 0}, false);  // beside it
   const std::size_t of_one = test::icosphere(5, 2).faces.size();
   const std::size_t closed = scan.faces.size();
-  add_strip(scan, {0, -20, 5}, 2.0F, 6);
+  add_strip(scan, {0, -20, 5}, 3.0F, 6);
   const Loaded loaded = through_ply(scan);
   EXPECT_EQ(loaded.mesh.faces.size(), piece.faces.size() + of_one + 6);
   ASSERT_EQ(loaded.warnings.size(), 1U);
@@ -104,9 +104,9 @@ TEST(Clean, KeepsPatchesNearThePieceAndLargePartsAnywhere) {
   const Mesh piece = test::icosphere(50, 3);
   const std::size_t faces = piece.faces.size();
   Mesh near = piece;
-  add_strip(near, {0, 62, 0}, 0.5F, 4);    // less than a tenth of the box's diagonal (17) away
-  add_strip(near, {0, 75, 0}, 0.5F, 4);    // near to the patch before
-  add_strip(near, {10, 10, 10}, 0.5F, 4);  // inside
+  add_strip(near, {0, 62, 0}, 3.0F, 4);    // less than a tenth of the box's diagonal (17) away
+  add_strip(near, {0, 75, 0}, 3.0F, 4);    // near to the patch before
+  add_strip(near, {10, 10, 10}, 3.0F, 4);  // inside
   EXPECT_EQ(through_ply(near).mesh.faces.size(), faces + 12);
   EXPECT_TRUE(through_ply(near).warnings.empty());
   Mesh two = piece;

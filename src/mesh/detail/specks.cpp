@@ -16,10 +16,11 @@
 namespace rejoin::mesh::detail {
 namespace {
 
-constexpr double kSmall = 0.01;  // of the whole area, or of all points
-constexpr double kApart = 0.1;   // of the diagonal of the larger parts' box
-constexpr double kDust = 5e-4;   // of the whole area: no patch of a piece
-constexpr double kAfloat = 5.0;  // edges of a mean triangle
+constexpr double kSmall = 0.01;     // of the whole area, or of all points
+constexpr double kApart = 0.1;      // of the diagonal of the larger parts' box
+constexpr double kDust = 5e-4;      // of the whole area: no patch of a piece
+constexpr double kMostDust = 0.05;  // of the area; more is a surface in shreds
+constexpr double kAfloat = 2.0;     // edges of a mean triangle
 
 /// Which parts are specks.
 std::vector<bool> specks_among(const std::vector<Part>& parts) {
@@ -56,17 +57,17 @@ std::vector<bool> dust_among(const Mesh& mesh, const std::vector<std::uint32_t>&
   for (const Part& part : parts) all += part.weight;
   std::vector<bool> result(parts.size());
   for (std::size_t k = 0; k < parts.size(); ++k) result[k] = parts[k].weight < kDust * all;
+  double area = 0;
+  for (std::size_t k = 0; k < parts.size(); ++k) area += result[k] ? 0.0 : parts[k].weight;
+  if (area < (1.0 - kMostDust) * all) return std::vector<bool>(parts.size(), false);
   if (std::ranges::count(result, true) == 0) return result;
   std::vector<glm::vec3> surface;
-  double area = 0;
   std::size_t faces = 0;
-  for (std::size_t k = 0; k < parts.size(); ++k) area += result[k] ? 0.0 : parts[k].weight;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     if (result[part_of_face[f]]) continue;
     ++faces;
     for (int corner = 0; corner < 3; ++corner) surface.push_back(mesh.vertices[mesh.faces[f][corner]]);
   }
-  if (surface.empty()) return std::vector<bool>(parts.size(), false);
   const auto afloat =
       static_cast<float>(kAfloat * std::sqrt(4.0 / std::sqrt(3.0) * area / static_cast<double>(faces)));
   const PointIndex index(surface);

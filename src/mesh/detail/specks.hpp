@@ -15,8 +15,8 @@ struct Specks {
 
 /// Drops parts of the surface (faces that share vertices) that are small and lie clearly apart: each has less than 1 % of the
 /// area, and its box is farther from the box of all that is kept than a tenth of the diagonal of the larger parts' box.  What has
-/// no larger part, and patches near each other, stay; but what has less than a 2000th of the area and floats, five edges of a mean
-/// triangle and more off the surface of what is larger, goes too.  Call drop_unused_vertices() after it.
+/// no larger part, and patches near each other, stay; but what has less than a 2000th of the area and floats, two edges of a mean
+/// triangle and more off the surface of what is larger, goes too, where all such parts have less than a twentieth together.  Call drop_unused_vertices() after it.
 /// \pre no face is degenerate
 Specks drop_specks(Mesh& mesh);
 
