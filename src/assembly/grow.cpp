@@ -17,8 +17,10 @@ constexpr double kWorthHearing = -6.0;   // certainty from which others are aske
 constexpr double kTogether = 1.0;        // what two unsure joins need together above the limit for one
 constexpr double kTogetherOdds = -5.0;   // of each, at least
 constexpr double kTogetherWorth = -8.0;  // of both, for the third pair to be asked
-constexpr double kElsewhere = 3.0;       // of the distances within which poses are the same
-constexpr std::size_t kProposals = 24;   // per two groups
+constexpr double kAlike =
+    0.5;  // of what speaks for one place of two groups, for another, where patterns repeat
+constexpr double kElsewhere = 3.0;      // of the distances within which poses are the same
+constexpr std::size_t kProposals = 24;  // per two groups
 
 /// What is left of links' log-odds as at most one pose of a pair is true: of several that are alike, each may be the one.  None becomes noise
 /// by that, for the pose before it may be refused.
@@ -265,8 +267,8 @@ Grower::Answers Grower::answers(const State& state, std::vector<Question>& quest
   return result;
 }
 
-/// What is left of the best proposal's certainty, as its two groups lie in one way at most: where a pattern repeats, neighbours bear out
-/// each of several places.
+/// What is left of the best proposal's certainty, as its two groups lie in one way at most; nothing but its wish where much speaks for
+/// another place as well: where a pattern repeats, neighbours bear out each of several.
 /// \param list  of the two groups, best first, at least one
 double Grower::among_places(const State& state, const Key& key, const std::vector<Proposal>& list) const {
   const Proposal& best = list.front();
@@ -277,13 +279,17 @@ double Grower::among_places(const State& state, const Key& key, const std::vecto
   const double far = kElsewhere * options_.same_shift *
                      std::min(pieces_[link.a].fragment().diameter, pieces_[link.b].fragment().diameter);
   double others = 0.0;
+  double next = 0.0;
   for (const Proposal& other : list) {
     const Rigid elsewhere = transform(state, other.link, key.first);
-    if (angle_between(there, elsewhere) > kElsewhere * options_.same_turn_deg * kDegree ||
-        glm::distance(there(centre), elsewhere(centre)) > far)
-      others += std::exp(other.alone + other.agreeing);
+    if (angle_between(there, elsewhere) <= kElsewhere * options_.same_turn_deg * kDegree &&
+        glm::distance(there(centre), elsewhere(centre)) <= far)
+      continue;
+    others += std::exp(other.alone + other.agreeing);
+    next = std::max(next, other.alone + other.agreeing);
   }
-  return best.certainty() - std::log1p(others);
+  const bool alike = next > log_odds(options_.sure) && next > kAlike * (best.alone + best.agreeing);
+  return alike ? best.wish : best.certainty() - std::log1p(others);
 }
 
 /// Uses the most certain proposal of all, or finds that it does not fit.  False: none is certain enough.
