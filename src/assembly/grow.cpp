@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "assembly/pairs.hpp"
+#include "core/angle.hpp"
 #include "core/parallel.hpp"
 
 namespace rejoin::assembly {
@@ -17,24 +18,11 @@ constexpr double kWorthHearing = -6.0;   // certainty from which others are aske
 constexpr double kTogether = 1.0;        // what two unsure joins need together above the limit for one
 constexpr double kTogetherOdds = -5.0;   // of each, at least
 constexpr double kTogetherWorth = -8.0;  // of both, for the third pair to be asked
+constexpr double kNoLess = 500.0;        // more is as much
 constexpr double kAlike =
     0.5;  // of what speaks for one place of two groups, for another, where patterns repeat
 constexpr double kElsewhere = 3.0;      // of the distances within which poses are the same
 constexpr std::size_t kProposals = 24;  // per two groups
-
-/// What is left of links' log-odds as at most one pose of a pair is true: of several that are alike, each may be the one.  None becomes noise
-/// by that, for the pose before it may be refused.
-std::vector<double> among_rivals(const std::vector<Link>& links, std::vector<double> odds) {
-  std::map<std::pair<std::size_t, std::size_t>, double> all;
-  for (std::size_t k = 0; k < links.size(); ++k)
-    all[std::minmax(links[k].a, links[k].b)] += std::exp(odds[k]);
-  for (std::size_t k = 0; k < links.size(); ++k) {
-    const double rivals = all[std::minmax(links[k].a, links[k].b)] - std::exp(odds[k]);
-    const double left = odds[k] - std::log1p(std::max(0.0, rivals));
-    odds[k] = std::min(odds[k], std::max(left, kLeastOdds));
-  }
-  return odds;
-}
 
 }  // namespace
 
@@ -46,9 +34,6 @@ Grower::Grower(const std::vector<Piece>& pieces, const std::vector<Link>& links,
   for (std::size_t k = 0; k < links.size(); ++k) {
     const double odds = log_odds(links[k].score);
     odds_.push_back(links[k].holds ? odds : std::min(odds, doubted));
-  }
-  odds_ = among_rivals(links, odds_);
-  for (std::size_t k = 0; k < links.size(); ++k) {
     if (must(unwanted_, k)) continue;
     if (odds_[k] >= kLeastOdds || must(wanted_, k)) links_of_[key_of(links[k].a, links[k].b)].push_back(k);
   }
@@ -267,8 +252,8 @@ Grower::Answers Grower::answers(const State& state, std::vector<Question>& quest
   return result;
 }
 
-/// What is left of the best proposal's certainty, as its two groups lie in one way at most; nothing but its wish where much speaks for
-/// another place as well: where a pattern repeats, neighbours bear out each of several.
+/// What is left of the best proposal's log-odds, as its two groups lie in one way at most; nothing where much speaks for another place as
+/// well: where a pattern repeats, neighbours bear out each of several.
 /// \param list  of the two groups, best first, at least one
 double Grower::among_places(const State& state, const Key& key, const std::vector<Proposal>& list) const {
   const Proposal& best = list.front();
@@ -285,28 +270,32 @@ double Grower::among_places(const State& state, const Key& key, const std::vecto
     if (angle_between(there, elsewhere) <= kElsewhere * options_.same_turn_deg * kDegree &&
         glm::distance(there(centre), elsewhere(centre)) <= far)
       continue;
-    others += std::exp(other.alone + other.agreeing);
-    next = std::max(next, other.alone + other.agreeing);
+    others += std::exp(std::min(kNoLess, other.odds()));
+    next = std::max(next, other.odds());
   }
-  const bool alike = next > log_odds(options_.sure) && next > kAlike * (best.alone + best.agreeing);
-  return alike ? best.wish : best.certainty() - std::log1p(others);
+  const bool alike = next > log_odds(options_.sure) && next > kAlike * best.odds();
+  return alike ? std::min(0.0, best.odds()) : best.odds() - std::log1p(others);
 }
 
 /// Uses the most certain proposal of all, or finds that it does not fit.  False: none is certain enough.
 bool Grower::try_best(State& state) {
   std::vector<Proposal>* best = nullptr;
   double most = log_odds(options_.sure) - 1e-9;
+  double odds = 0.0;
   for (auto& [key, list] : state.proposals) {
     if (list.empty() || list.front().certainty() <= most) continue;
-    if (among_places(state, key, list) < log_odds(options_.sure) - 1e-9) continue;
+    const double left = among_places(state, key, list);
+    const bool wished = list.front().wish > 0.0;  // by the user, or where strong joins contradict each other
+    if (!wished && left < log_odds(options_.sure) - 1e-9) continue;
     most = list.front().certainty();
     best = &list;
+    odds = wished ? list.front().odds() : left;
   }
   if (best == nullptr) return false;
   const Proposal used = best->front();
   best->erase(best->begin());
   if (!fits(state, used.link)) return true;
-  merge(state, used.link, used.alone + used.agreeing);
+  merge(state, used.link, odds);
   state.growth.vouched += used.vouched;
   return true;
 }

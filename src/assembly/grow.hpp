@@ -76,7 +76,8 @@ class Grower {
     bool heard;           ///< whether their contacts were asked, not their links alone
     std::size_t against;  ///< a strong link that contradicts; links.size(): none
 
-    double certainty() const { return alone + agreeing + wish; }
+    double odds() const { return alone + agreeing; }
+    double certainty() const { return odds() + wish; }
   };
 
   /// Links, and the members of the groups that they would put together: the largest, then those that move.

@@ -249,13 +249,14 @@ Judgement judged(std::vector<Hypothesis> hypotheses, const Joint& joint, const J
   if (!context.cancelled()) align(hypotheses, joint, a, b, near, std::span(rounds).subspan(kGlance), context);
   if (near && !context.cancelled()) keep_laid(hypotheses, joint, a, b, *near, fresh, options, context);
   if (!context.cancelled()) tighten(hypotheses, joint, b, std::min(a.diameter, b.diameter));
-  result.has_a_fit = score_of(strongest(hypotheses)) >= kSure;
   weigh(hypotheses, joint);
   if (!context.cancelled()) settle(hypotheses, joint, b, std::min(a.diameter, b.diameter));
   if (near) keep_near(hypotheses, *near);
   if (axes_restrict(options)) keep_axes(hypotheses, options, result.warnings);
   probe_likely(hypotheses, joint, context);
   const double next = strongest_rival(hypotheses);
+  result.has_a_fit = std::ranges::any_of(
+      hypotheses, [](const Hypothesis& hypothesis) { return score_of(hypothesis.fit) >= kSure; });
   hypotheses.resize(std::min(hypotheses.size(), static_cast<std::size_t>(options.max_candidates)));
   if (!hypotheses.empty() && !context.cancelled()) {
     const Hypothesis& best = hypotheses.front();

@@ -103,19 +103,28 @@ std::vector<Pass> passes(double tolerance, int most) {
   const auto kept = static_cast<std::size_t>(most);
   // A reach much wider than the sweep's error would pull in surfaces beside the joint, the other wall of a thin piece above
   // all; so would other facets at first.  Once it lies there, the rest of a splintery break tells what a splinter alone cannot.
-  return {
-      {{.reach_start = 10.0 * t, .reach_end = 4.0 * t, .iterations = 8, .most_samples = 120, .quick = true, .both = true},
-       true,
-       300,
-       true,
-       16 * kept},
-      {{.reach_start = 8.0 * t, .reach_end = 3.0 * t, .iterations = 12, .most_samples = 300, .quick = true, .both = true},
-       true,
-       1500,
-       false,
-       5 * kept},
-      {{6.0 * t, 2.0 * t, 20, 0}, false, 0, false, 3 * kept},
-      {{3.0 * t, 1.0 * t, 15, 0, true}, false, 0, false, 3 * kept}};
+  return {{{.reach_start = 10.0 * t,
+            .reach_end = 4.0 * t,
+            .iterations = 8,
+            .most_samples = 120,
+            .quick = true,
+            .both = true},
+           true,
+           300,
+           true,
+           16 * kept},
+          {{.reach_start = 8.0 * t,
+            .reach_end = 3.0 * t,
+            .iterations = 12,
+            .most_samples = 300,
+            .quick = true,
+            .both = true},
+           true,
+           1500,
+           false,
+           5 * kept},
+          {{6.0 * t, 2.0 * t, 20, 0}, false, 0, false, 3 * kept},
+          {{3.0 * t, 1.0 * t, 15, 0, true}, false, 0, false, 3 * kept}};
 }
 
 void refine(std::vector<Hypothesis>& list, const Joint& joint, const Pass& pass, const Context& context) {
@@ -242,6 +251,7 @@ void weigh(std::vector<Hypothesis>& list, const Joint& joint) {
     for (std::size_t k = first; k < last; ++k) {
       Hypothesis& hypothesis = list[k];
       const Weighed weighed = weigh(hypothesis.evidence, joint, hypothesis.pose);
+      hypothesis.fit = hypothesis.strength;
       hypothesis.as_rival = std::min(hypothesis.strength, weighed.as_rival);
       hypothesis.evidence = weighed.evidence;
       hypothesis.strength = std::min(hypothesis.strength, strength(hypothesis.evidence));

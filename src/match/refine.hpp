@@ -18,6 +18,7 @@ struct Hypothesis {
   int facet_b = -1;
   double as_rival =
       0;  ///< the same without what weigh() holds back: of ridges in grooves, equal poses may lie on both sides of a limit
+  double fit = 0;                                     ///< strength before it was weighed
   std::optional<Stability> stability = std::nullopt;  ///< where it was probed
 };
 

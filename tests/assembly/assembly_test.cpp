@@ -159,15 +159,6 @@ TEST(Assemble, AJoinOfHighScoreThatDoesNotHoldNeedsAWitness) {
   EXPECT_LT(ball().worst_turn(held), 0.5);
 }
 
-TEST(Assemble, OfSeveralPosesOfAPairThatAreAlikeNoneIsSure) {
-  const Corner corner = corner_of(ball());
-  std::vector<Link> links{ball().true_link(corner.a, corner.b, 0.999)};
-  ASSERT_EQ(run(ball(), links).groups, 1);
-  for (const double turn_deg : {30.0, 60.0, 90.0})
-    links.push_back(ball().false_link(corner.a, corner.b, 0.999, turn_deg, 0.6));
-  EXPECT_EQ(run(ball(), links).groups, 0);
-}
-
 // As patterns repeat: two pairs bear out one place, and the same two another one as well.
 TEST(Assemble, OfTwoPlacesThatNeighboursBearOutAlikeNoneIsSure) {
   const Corner corner = corner_of(ball());

@@ -85,6 +85,8 @@ TEST_F(SplitSlab, IsPutTogetherFromARunThatKnowsIt) {
   ASSERT_EQ(run({"batch", scans_, "--out", out, "--solid"}).exit_code, 0);
   const json assembly = written({"assemble", out});
   ASSERT_EQ(assembly["joins"].size(), 1U) << assembly;
+  EXPECT_GT(assembly["joins"][0]["contact"], 1000.0)
+      << "of the broken faces, not of what would be walls' rims";
   const Finished again = run({"batch", scans_, "--out", out});
   EXPECT_NE(again.out.find("1 of 1 pairs done, 1 of them now"), std::string::npos) << again.out;
   EXPECT_EQ(run({"assemble", out, "--solid"}).exit_code, 2) << "the run tells it";

@@ -62,6 +62,23 @@ TEST(Clean, DropsDustThatFloatsRoundThePieceAndKeepsPatches) {
       << loaded.warnings[0];
 }
 
+// Of a block with large flat sides, one of which was scanned in patches.
+TEST(Clean, KeepsPatchesOnLargeFacesAndASurfaceInShreds) {
+  const Mesh fine = test::icosphere(20, 5);  // hangs on a corner of it, so that faces are small on average
+  Mesh block = test::box({100, 80, 60}, 1);
+  for (const glm::uvec3& f : fine.faces)
+    block.faces.push_back(f + static_cast<std::uint32_t>(block.vertices.size()));
+  for (const glm::vec3& v : fine.vertices) block.vertices.push_back(v + glm::vec3(50, 40, 30));
+  const std::size_t faces = block.faces.size();
+  for (int k = 0; k < 30; ++k)
+    add_strip(block, {-30.0F + 2.0F * static_cast<float>(k), 0.0F, 30.1F}, 0.5F, 2);
+  EXPECT_EQ(through_ply(block).mesh.faces.size(), faces + 60);
+  Mesh shreds;
+  for (int k = 0; k < 3000; ++k)
+    add_strip(shreds, {5.0F * static_cast<float>(k % 60), 5.0F * static_cast<float>(k / 60), 0}, 1, 2);
+  EXPECT_EQ(through_ply(shreds).mesh.faces.size(), 6000U);
+}
+
 // A piece with two cavities, one of them with a lump in it, and an open patch inside, that a scanner saw through a crack.
 TEST(Clean, DropsCavitiesAndKeepsOpenPatchesInside) {
   const Mesh piece = test::icosphere(50, 3);

@@ -50,6 +50,32 @@ std::vector<bool> specks_among(const std::vector<Part>& parts) {
   return result;
 }
 
+/// Points of the surface, at most that far apart: the vertices, and more of large faces.
+/// \param without  per part: left out
+std::vector<glm::vec3> points_on(const Mesh& mesh, const std::vector<std::uint32_t>& part_of_face,
+                                 const std::vector<bool>& without, float apart) {
+  constexpr float kMostSteps = 256;
+  std::vector<bool> used(mesh.vertices.size(), false);
+  std::vector<glm::vec3> points;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    if (without[part_of_face[f]]) continue;
+    const glm::uvec3& face = mesh.faces[f];
+    for (int corner = 0; corner < 3; ++corner) used[face[corner]] = true;
+    const glm::vec3& at = mesh.vertices[face.x];
+    const glm::vec3 u = mesh.vertices[face.y] - at;
+    const glm::vec3 v = mesh.vertices[face.z] - at;
+    const float longest = std::max({glm::length(u), glm::length(v), glm::length(u - v)});
+    const auto steps = static_cast<int>(std::min(kMostSteps, std::ceil(longest / apart)));
+    for (int i = 0; i <= steps && steps > 1; ++i)
+      for (int j = 0; i + j <= steps; ++j)
+        points.push_back(at +
+                         (static_cast<float>(i) * u + static_cast<float>(j) * v) / static_cast<float>(steps));
+  }
+  for (std::size_t v = 0; v < used.size(); ++v)
+    if (used[v]) points.push_back(mesh.vertices[v]);
+  return points;
+}
+
 /// Parts that are too small for a patch of the piece and float beside the surface of all larger ones.
 std::vector<bool> dust_among(const Mesh& mesh, const std::vector<std::uint32_t>& part_of_face,
                              const std::vector<Part>& parts) {
@@ -61,19 +87,12 @@ std::vector<bool> dust_among(const Mesh& mesh, const std::vector<std::uint32_t>&
   for (std::size_t k = 0; k < parts.size(); ++k) area += result[k] ? 0.0 : parts[k].weight;
   if (area < (1.0 - kMostDust) * all) return std::vector<bool>(parts.size(), false);
   if (std::ranges::count(result, true) == 0) return result;
-  std::vector<glm::vec3> surface;
-  std::size_t faces = 0;
+  const auto faces = static_cast<double>(
+      std::ranges::count_if(part_of_face, [&](std::uint32_t part) { return !result[part]; }));
+  const auto afloat = static_cast<float>(kAfloat * std::sqrt(4.0 / std::sqrt(3.0) * area / faces));
+  const PointIndex index(points_on(mesh, part_of_face, result, afloat));
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    if (result[part_of_face[f]]) continue;
-    ++faces;
-    for (int corner = 0; corner < 3; ++corner) surface.push_back(mesh.vertices[mesh.faces[f][corner]]);
-  }
-  const auto afloat =
-      static_cast<float>(kAfloat * std::sqrt(4.0 / std::sqrt(3.0) * area / static_cast<double>(faces)));
-  const PointIndex index(surface);
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    if (!result[part_of_face[f]]) continue;
-    for (int corner = 0; corner < 3; ++corner) {
+    for (int corner = 0; corner < 3 && result[part_of_face[f]]; ++corner) {
       if (index.nearest_within(mesh.vertices[mesh.faces[f][corner]], afloat)) result[part_of_face[f]] = false;
     }
   }

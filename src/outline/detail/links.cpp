@@ -94,6 +94,12 @@ std::vector<Link> links_at(const std::vector<Silhouette>& shapes, const std::vec
 
 /// \pre shapes, perimeters and links are known
 void weigh_rivals(LinkedPieces& linked) {
+  linked.likely_of.assign(linked.shapes.size(), {});
+  for (std::size_t k = 0; k < linked.links.size(); ++k) {
+    if (linked.links[k].score < kLeastRival) continue;
+    linked.likely_of[linked.links[k].a].push_back(k);
+    linked.likely_of[linked.links[k].b].push_back(k);
+  }
   parallel_for(linked.links.size(), 16, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       Link& link = linked.links[i];

@@ -32,11 +32,12 @@ double evidence_of(double score);
 
 /// Pieces and their links at one scale.
 struct LinkedPieces {
-  double step = 0.0;               ///< of the scale, file units
-  double tolerance = 0.0;          ///< within which borders touch, file units
-  std::vector<Silhouette> shapes;  ///< one a piece
-  std::vector<double> perimeters;  ///< of the outer borders, one a piece, file units
-  std::vector<Link> links;         ///< sorted by a, then b
+  double step = 0.0;                                ///< of the scale, file units
+  double tolerance = 0.0;                           ///< within which borders touch, file units
+  std::vector<Silhouette> shapes;                   ///< one a piece
+  std::vector<double> perimeters;                   ///< of the outer borders, one a piece, file units
+  std::vector<Link> links;                          ///< sorted by a, then b
+  std::vector<std::vector<std::size_t>> likely_of;  ///< for every piece those that may be rivals, indices
 };
 
 /// Measures the candidates of all pairs at that one of options.samples at which the best of them say most.  Those that

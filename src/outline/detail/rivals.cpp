@@ -13,8 +13,6 @@ namespace {
 
 // Of the longer of two stretches: that much in common makes them one border.
 constexpr double kSameBorder = 0.5;
-// A rival of a lower score is none.
-constexpr double kLikely = 0.3;
 constexpr double kTempered = 1.0 / 3.0;
 
 /// A part of a piece's outer border, shares of it.
@@ -56,14 +54,17 @@ std::map<std::pair<std::size_t, std::size_t>, double> best_rivals(const Link& li
                                                                   const LinkedPieces& pieces,
                                                                   const IsNone& is_none) {
   std::map<std::pair<std::size_t, std::size_t>, double> best;
-  for (const Link& other : pieces.links) {
-    if (other.score < kLikely || is_none(other)) continue;
-    for (const std::size_t at : {link.a, link.b}) {
-      if (other.a != at && other.b != at) continue;
-      if (!same_border(stretch_on(link, at, pieces), stretch_on(other, at, pieces))) continue;
+  const auto same_at = [&](const Link& other, std::size_t at) {
+    return same_border(stretch_on(link, at, pieces), stretch_on(other, at, pieces));
+  };
+  for (const std::size_t at : {link.a, link.b}) {
+    for (const std::size_t k : pieces.likely_of[at]) {
+      const Link& other = pieces.links[k];
+      if (is_none(other) || !same_at(other, at)) continue;
+      const bool is_told = at == link.b && other.a == link.a && other.b == link.b && same_at(other, link.a);
+      if (is_told) continue;
       double& score = best[{other.a == at ? other.b : other.a, at}];
       score = std::max(score, other.score);
-      if (other.a == link.a && other.b == link.b) break;  // told once
     }
   }
   return best;

@@ -8,6 +8,9 @@
 
 namespace rejoin::outline::detail {
 
+// Links of a lower score are no rivals.
+inline constexpr double kLeastRival = 0.3;
+
 /// The links that lie along most of the border that a link lies along, on its a or its b, but lay another piece there or the same one
 /// otherwise, and that are no unlikely joins themselves.  At most one of them and the link is true.  Of pieces in holes nothing is told.
 /// \param placed  where the pieces lie; what lies as a link says is beside its pieces, and no rival
