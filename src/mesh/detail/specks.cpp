@@ -1,6 +1,7 @@
 #include "mesh/detail/specks.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -50,26 +51,45 @@ std::vector<bool> specks_among(const std::vector<Part>& parts) {
   return result;
 }
 
+/// Points of a face that is larger than they are apart, in rows along its longest side: of a sliver few.
+void add_points_between(const Mesh& mesh, const glm::uvec3& face, float apart,
+                        std::vector<glm::vec3>& points) {
+  constexpr float kMostSteps = 256;
+  std::array<glm::vec3, 3> p{mesh.vertices[face.x], mesh.vertices[face.y], mesh.vertices[face.z]};
+  for (int turn = 0; turn < 2; ++turn) {
+    const float first = glm::distance(p[0], p[1]);
+    if (first >= glm::distance(p[1], p[2]) && first >= glm::distance(p[2], p[0])) break;
+    std::ranges::rotate(p, p.begin() + 1);
+  }
+  const glm::vec3 along = p[1] - p[0];
+  const float length = glm::length(along);
+  if (length <= apart) return;
+  const float height = glm::length(glm::cross(along, p[2] - p[0])) / length;
+  const auto steps = [&](float extent) {
+    return std::max(1, static_cast<int>(std::min(kMostSteps, std::ceil(extent / apart))));
+  };
+  const int rows = steps(height);
+  for (int row = 0; row < rows; ++row) {
+    const float up = static_cast<float>(row) / static_cast<float>(rows);
+    const int count = steps((1.0F - up) * length);
+    for (int k = 0; k <= count; ++k) {
+      const float share = static_cast<float>(k) / static_cast<float>(count);
+      points.push_back(p[0] + up * (p[2] - p[0]) + share * (1.0F - up) * along);
+    }
+  }
+}
+
 /// Points of the surface, at most that far apart: the vertices, and more of large faces.
 /// \param without  per part: left out
 std::vector<glm::vec3> points_on(const Mesh& mesh, const std::vector<std::uint32_t>& part_of_face,
                                  const std::vector<bool>& without, float apart) {
-  constexpr float kMostSteps = 256;
   std::vector<bool> used(mesh.vertices.size(), false);
   std::vector<glm::vec3> points;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     if (without[part_of_face[f]]) continue;
     const glm::uvec3& face = mesh.faces[f];
     for (int corner = 0; corner < 3; ++corner) used[face[corner]] = true;
-    const glm::vec3& at = mesh.vertices[face.x];
-    const glm::vec3 u = mesh.vertices[face.y] - at;
-    const glm::vec3 v = mesh.vertices[face.z] - at;
-    const float longest = std::max({glm::length(u), glm::length(v), glm::length(u - v)});
-    const auto steps = static_cast<int>(std::min(kMostSteps, std::ceil(longest / apart)));
-    for (int i = 0; i <= steps && steps > 1; ++i)
-      for (int j = 0; i + j <= steps; ++j)
-        points.push_back(at +
-                         (static_cast<float>(i) * u + static_cast<float>(j) * v) / static_cast<float>(steps));
+    add_points_between(mesh, face, apart, points);
   }
   for (std::size_t v = 0; v < used.size(); ++v)
     if (used[v]) points.push_back(mesh.vertices[v]);
