@@ -90,7 +90,7 @@ std::string against(const Evidence& evidence, double score, const std::optional<
   }
   const bool held_back = evidence.doubt != Doubt::None && std::abs(strength(evidence) - kEven) < kRounding;
   if (held_back || evidence.doubt == Doubt::Slide) return told_doubt(evidence);
-  const std::string found = objection(evidence);
+  std::string found = objection(evidence);
   if (!found.empty()) return found;
   return score < kLikely ? "the breaks have too little shape in common"
                          : "the breaks have shape in common, but too little to be sure";

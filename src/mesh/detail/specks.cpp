@@ -59,7 +59,7 @@ void add_points_between(const Mesh& mesh, const glm::uvec3& face, float apart,
   for (int turn = 0; turn < 2; ++turn) {
     const float first = glm::distance(p[0], p[1]);
     if (first >= glm::distance(p[1], p[2]) && first >= glm::distance(p[2], p[0])) break;
-    std::ranges::rotate(p, p.begin() + 1);
+    std::rotate(p.begin(), p.begin() + 1, p.end());
   }
   const glm::vec3 along = p[1] - p[0];
   const float length = glm::length(along);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <ranges>
 
 #include "outline/detail/odds.hpp"
 
@@ -70,13 +69,10 @@ std::map<std::pair<std::size_t, std::size_t>, double> best_rivals(const Link& li
   return best;
 }
 
-/// That one of them is true.
-template <class Scores>
-double odds_of_any(const Scores& scores) {
+/// Of what has this score.
+double odds_of(double score) {
   constexpr double kLeast = 1e-12;
-  double odds = 0.0;
-  for (const double score : scores) odds += std::exp(odds_of_score(std::clamp(score, kLeast, 1.0 - kLeast)));
-  return odds;
+  return std::exp(odds_of_score(std::clamp(score, kLeast, 1.0 - kLeast)));
 }
 
 }  // namespace
@@ -93,15 +89,16 @@ std::vector<AssemblyRival> rivals_of(const Link& link, const LinkedPieces& piece
 
 double odds_taken(const Link& link, const LinkedPieces& pieces) {
   const auto best = best_rivals(link, pieces, [&](const Link& other) { return agree(link, other, pieces); });
-  return std::log1p(odds_of_any(std::views::values(best)));
+  double odds = 0.0;  // that one of them is true
+  for (const auto& [names, score] : best) odds += odds_of(score);
+  return std::log1p(odds);
 }
 
 double contested_score(double score, const std::vector<AssemblyRival>& rivals) {
-  constexpr double kLeast = 1e-12;
-  const double odds = odds_of_any(std::views::transform(rivals, &AssemblyRival::score));
+  double odds = 0.0;  // that one of them is true
+  for (const AssemblyRival& rival : rivals) odds += odds_of(rival.score);
   if (odds <= 0.0) return score;
-  const double alone = odds_of_score(std::clamp(score, kLeast, 1.0 - kLeast));
-  return std::min(score, score_of_odds(kTempered * (alone - std::log(odds))));
+  return std::min(score, score_of_odds(kTempered * std::log(odds_of(score) / odds)));
 }
 
 std::vector<AssemblyRival> refused_of(const LinkedPieces& linked, const std::vector<std::size_t>& unplaced) {
