@@ -32,10 +32,7 @@ ordered_json stability_json(const match::Stability& stability) {
 }
 
 ordered_json fragment_json(const match::Fragment& fragment) {
-  return {{"path", fragment.path},
-          {"faces", fragment.surface.faces.size()},
-          {"diameter", fragment.diameter},
-          {"wall_thickness", fragment.facets.wall_thickness}};
+  return {{"path", fragment.path}, {"faces", fragment.surface.faces.size()}, {"diameter", fragment.diameter}};
 }
 
 ordered_json times_json(const std::vector<StageTime>& times) {

@@ -136,6 +136,8 @@ void refine(std::vector<Hypothesis>& list, const Joint& joint, const Pass& pass,
       AlignOptions options = pass.align;
       options.facet_a = pass.facet_aligned ? hypothesis.facet_a : -1;
       options.facet_b = pass.facet_aligned ? hypothesis.facet_b : -1;
+      if (pass.facet_aligned && hypothesis.facet_a < 0)
+        options.both = false;  // all there is would draw a laid pose far
       const int weighed_facet = pass.facet_weighed ? hypothesis.facet_b : -1;
       const bool all = pass.evidence_samples == 0 && !pass.facet_weighed;
       const auto weighed = [&](double above, const Rigid& pose) {
