@@ -103,26 +103,16 @@ std::vector<Pass> passes(double tolerance, int most) {
   const auto kept = static_cast<std::size_t>(most);
   // A reach much wider than the sweep's error would pull in surfaces beside the joint, the other wall of a thin piece above
   // all; so would other facets at first.  Once it lies there, the rest of a splintery break tells what a splinter alone cannot.
-  return {{{.reach_start = 10.0 * t,
-            .reach_end = 4.0 * t,
-            .iterations = 8,
-            .most_samples = 120,
-            .quick = true,
-            .both = true},
-           true,
-           300,
-           true,
-           16 * kept},
-          {{.reach_start = 8.0 * t,
-            .reach_end = 3.0 * t,
-            .iterations = 12,
-            .most_samples = 300,
-            .quick = true,
-            .both = true},
-           true,
-           1500,
-           false,
-           5 * kept},
+  const auto rough = [&](double from, double to, int iterations, int samples) {
+    return AlignOptions{.reach_start = from * t,
+                        .reach_end = to * t,
+                        .iterations = iterations,
+                        .most_samples = samples,
+                        .quick = true,
+                        .both = true};
+  };
+  return {{rough(10.0, 4.0, 8, 120), true, 300, true, 16 * kept},
+          {rough(8.0, 3.0, 12, 300), true, 1500, false, 5 * kept},
           {{6.0 * t, 2.0 * t, 20, 0}, false, 0, false, 3 * kept},
           {{3.0 * t, 1.0 * t, 15, 0, true}, false, 0, false, 3 * kept}};
 }

@@ -23,14 +23,6 @@ Assembly assembled(const std::vector<Piece>& pieces, const Context& context = Co
   return assemble(pieces, *matcher, {}, context);
 }
 
-/// Mean misplacement of a piece against the board when piece `fixed` is where it belongs.
-double misplaced(const planted::Board& board, const Assembly& assembly, std::size_t fixed,
-                 std::size_t piece) {
-  const Planar to_board = board.poses[fixed] * inverse(assembly.placements[fixed].pose);
-  return planted::misplacement(board.pieces[piece], to_board * assembly.placements[piece].pose,
-                               board.poses[piece]);
-}
-
 TEST(Assembly, PutsABrokenBoardTogether) {
   const planted::Board board = planted::broken_board(3, 3, 0.05, 11);
   const Assembly assembly = assembled(board.pieces);
@@ -144,28 +136,6 @@ TEST(Assembly, CandidatesOfOneBorderTakeFromEachOther) {
   beside.pose = Planar{0.0, {30.0, 300.0}, false} * candidate.pose;
   pairs[0].candidates = {candidate, beside};
   EXPECT_EQ(assemble(board.pieces, pairs, options, Context()).unplaced.size(), 2U);
-}
-
-// Two rows of pieces, each with a little error at every join, that adds up to more than borders may lie in each other.
-TEST(Assembly, RowsWhoseErrorsAddUpJoinWhereSeveralSureJoinsSaySo) {
-  const std::size_t columns = 12;
-  const planted::Board board = planted::broken_board(static_cast<int>(columns), 2, 0.05, 45);
-  const std::size_t count = board.pieces.size();
-  std::vector<PairResult> pairs;
-  for (std::size_t a = 0; a < count; ++a) {
-    for (std::size_t b = a + 1; b < count; ++b) {
-      pairs.emplace_back();
-      const bool beside = b == a + 1 && b != columns;
-      if (!beside && b != a + columns) continue;
-      JoinCandidate join;
-      join.pose = inverse(board.poses[a]) * board.poses[b];
-      join.score = beside ? 0.9999 : 0.95;
-      pairs.back().candidates = {join};
-    }
-  }
-  const Assembly assembly = assemble(board.pieces, pairs, {}, Context());
-  EXPECT_TRUE(assembly.unplaced.empty());
-  for (std::size_t i = 1; i < count; ++i) EXPECT_LT(misplaced(board, assembly, 0, i), 1.0) << i;
 }
 
 TEST(Assembly, GivesAJoinTheScoreOfItsPairAndAPieceTheChanceThatOneIsTrue) {
@@ -337,72 +307,6 @@ TEST(Assembly, CancelledWhileItGrowsKeepsWhatItJoined) {
   EXPECT_EQ(assembly.unplaced.size(), 4U) << "two of six are joined, then it ends";
 }
 
-/// Finds the true joins of a row of pieces, or nothing, and cancels its context at the pair (1, 2).
-class StoppedMatcher final : public Matcher {
- public:
-  explicit StoppedMatcher(Context& context, const planted::Board* known = nullptr)
-      : context_(context), known_(known) {}
-  void prepare(const std::vector<Piece>& /*pieces*/) override {}
-  PairResult match(std::size_t a, std::size_t b, const Context& /*context*/) const override {
-    if (a == 1 && b == 2) context_.cancel();
-    if (context_.cancelled() || known_ == nullptr || b != a + 1) return {};
-    JoinCandidate join;
-    join.score = 0.9;
-    join.pose = inverse(known_->poses[a]) * known_->poses[b];
-    return {{join}};
-  }
-
- private:
-  Context& context_;
-  const planted::Board* known_;
-};
-
-TEST(Assembly, OfASearchThatWasStoppedHasTheJoinsItFound) {
-  const ThreadLimit limit(1);
-  const planted::Board board = planted::broken_board(3, 1, 0.05, 62);
-  Context context;
-  const StoppedMatcher matcher(context, &board);
-  const Assembly assembly = assemble(board.pieces, matcher, {}, context);
-  EXPECT_TRUE(assembly.cancelled);
-  ASSERT_EQ(assembly.joins.size(), 1U);
-  EXPECT_LT(misplaced(board, assembly, 0, 1), 0.3);
-  EXPECT_EQ(assembly.untried, std::vector<std::size_t>{2});
-}
-
-// Of three pieces the pairs (0, 1) and (0, 2) are looked at, and (1, 2) is not.
-TEST(Assembly, PiecesThatNobodyComparedAreNotSaidToFitNowhere) {
-  const ThreadLimit limit(1);
-  const planted::Board board = planted::broken_board(3, 1, 0.05, 62);
-  Context context;
-  const StoppedMatcher matcher(context);
-  const Assembly assembly = assemble(board.pieces, matcher, {}, context);
-  EXPECT_EQ(assembly.unplaced, std::vector<std::size_t>{0});
-  EXPECT_EQ(assembly.untried, (std::vector<std::size_t>{1, 2}));
-}
-
-/// Knows how neighbours from one piece of a board to another join, and which pairs it was asked for.
-class NeighbourMatcher final : public Matcher {
- public:
-  NeighbourMatcher(const planted::Board& board, std::size_t first, std::size_t last)
-      : board_(board), first_(first), last_(last) {}
-  void prepare(const std::vector<Piece>& /*pieces*/) override {}
-  PairResult match(std::size_t a, std::size_t b, const Context& /*context*/) const override {
-    asked.emplace(a, b);
-    if (b != a + 1 || a < first_ || b > last_) return {};
-    JoinCandidate join;
-    join.score = 0.9;
-    join.pose = inverse(board_.poses[a]) * board_.poses[b];
-    return {{join}};
-  }
-
-  mutable std::set<std::pair<std::size_t, std::size_t>> asked;
-
- private:
-  const planted::Board& board_;
-  std::size_t first_;
-  std::size_t last_;
-};
-
 /// Half of a long board that meets the other half along a short, finely bent line only, from where both lean back.
 Outline leaning_half(bool left, double above_deg, double below_deg) {
   const double side = left ? -1.0 : 1.0;
@@ -433,62 +337,6 @@ TEST(Assembly, LeavesAShortSureJoinWhereTheSearchPutIt) {
   const Planar placed = inverse(assembly.placements[0].pose) * assembly.placements[1].pose;
   EXPECT_LT(glm::length(placed({0.0, 0.0})), 3.0);
   EXPECT_LT(std::abs(angle_between(placed, Planar{})), 0.02);
-}
-
-TEST(Assembly, ASecondSearchLooksAtWhatIsLeft) {
-  const ThreadLimit limit(1);
-  const planted::Board board = planted::broken_board(4, 1, 0.05, 62);
-  const NeighbourMatcher first(board, 0, 2);
-  NeighbourMatcher second(board, 2, 3);
-  AssemblyOptions options;
-  options.second = &second;
-  const Assembly assembly = assemble(board.pieces, first, options, Context());
-  EXPECT_EQ(second.asked, (std::set<std::pair<std::size_t, std::size_t>>{{0, 3}, {1, 3}, {2, 3}}));
-  EXPECT_TRUE(assembly.unplaced.empty());
-  EXPECT_LT(misplaced(board, assembly, 0, 3), 0.3);
-  // What it finds alone would not do.
-  options.second = nullptr;
-  EXPECT_EQ(assemble(board.pieces, first, options, Context()).unplaced, std::vector<std::size_t>{3});
-}
-
-/// Ends the search at its first pair.
-class CancellingMatcher final : public Matcher {
- public:
-  explicit CancellingMatcher(Context& context) : context_(context) {}
-  void prepare(const std::vector<Piece>& /*pieces*/) override {}
-  PairResult match(std::size_t /*a*/, std::size_t /*b*/, const Context& /*context*/) const override {
-    context_.cancel();
-    return {};
-  }
-
- private:
-  Context& context_;
-};
-
-TEST(Assembly, OfASecondSearchThatWasStoppedHasWhatTheFirstFound) {
-  const ThreadLimit limit(1);
-  const planted::Board board = planted::broken_board(4, 1, 0.05, 62);
-  const NeighbourMatcher first(board, 0, 2);
-  Context context;
-  CancellingMatcher second(context);
-  AssemblyOptions options;
-  options.second = &second;
-  const Assembly assembly = assemble(board.pieces, first, options, context);
-  EXPECT_TRUE(assembly.cancelled);
-  EXPECT_EQ(assembly.joins.size(), 2U);
-  EXPECT_EQ(assembly.untried, std::vector<std::size_t>{3});
-  EXPECT_TRUE(assembly.unplaced.empty());
-}
-
-TEST(Assembly, ASecondSearchIsNotAskedIfNothingIsLeft) {
-  const ThreadLimit limit(1);
-  const planted::Board board = planted::broken_board(3, 1, 0.05, 62);
-  const NeighbourMatcher first(board, 0, 2);
-  NeighbourMatcher second(board, 0, 2);
-  AssemblyOptions options;
-  options.second = &second;
-  EXPECT_EQ(assemble(board.pieces, first, options, Context()).joins.size(), 2U);
-  EXPECT_TRUE(second.asked.empty());
 }
 
 TEST(Assembly, TellsOfACandidateThatNothingElseBearsOut) {

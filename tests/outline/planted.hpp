@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/random.hpp"
+#include "outline/assembly.hpp"
 #include "outline/outline.hpp"
 
 namespace rejoin::outline::planted {
@@ -130,6 +131,12 @@ inline double misplacement(const Piece& piece, const Planar& pose, const Planar&
   double sum = 0.0;
   for (const glm::dvec2& p : piece.outline.points) sum += glm::distance(pose(p), truth(p));
   return sum / static_cast<double>(piece.outline.points.size());
+}
+
+/// Mean misplacement of a piece against the board when piece `fixed` is where it belongs.
+inline double misplaced(const Board& board, const Assembly& assembly, std::size_t fixed, std::size_t piece) {
+  const Planar to_board = board.poses[fixed] * inverse(assembly.placements[fixed].pose);
+  return misplacement(board.pieces[piece], to_board * assembly.placements[piece].pose, board.poses[piece]);
 }
 
 }  // namespace rejoin::outline::planted
