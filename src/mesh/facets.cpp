@@ -11,6 +11,7 @@
 #include "core/parallel.hpp"
 #include "mesh/detail/creases.hpp"
 #include "mesh/detail/facet_table.hpp"
+#include "mesh/detail/flanks.hpp"
 #include "mesh/detail/grow.hpp"
 #include "mesh/detail/local_fit.hpp"
 #include "mesh/detail/mean_normals.hpp"
@@ -325,11 +326,10 @@ bool is_flake(const Mesh& mesh, const Segmentation& s) {
 }
 
 /// Sets the samples, their normals and classes, and the wall thickness.
-/// \return the samples' neighbours
-Lists classify(const Mesh& mesh, double size, PieceKind kind, Segmentation& s) {
+Look classify(const Mesh& mesh, double size, PieceKind kind, Segmentation& s) {
   Look seen = look(mesh, kSamples, s);
   s.backed = meets_something(seen.rays);
-  if (kind == PieceKind::Solid) return std::move(seen.near);
+  if (kind == PieceKind::Solid) return seen;
   const Walls walls = find_walls(seen.rays, s.normals, s.roughness, size);
   s.wall_thickness = walls.thickness;
   const bool open = unbacked_share(s) > kOpen;
@@ -337,7 +337,7 @@ Lists classify(const Mesh& mesh, double size, PieceKind kind, Segmentation& s) {
     const double width = open_walls(mesh, s, seen.near, kWideOfSize * size).break_width;
     if (width < kMostOfOpen * size) s.wall_thickness = width;
   }
-  if (s.wall_thickness == 0) return std::move(seen.near);
+  if (s.wall_thickness == 0) return seen;
   if (s.samples.spacing > s.wall_thickness / kSamplesPerWall) {
     const double finer = s.samples.spacing * kSamplesPerWall / s.wall_thickness;
     const double count = static_cast<double>(s.samples.size()) * finer * finer;
@@ -352,7 +352,7 @@ Lists classify(const Mesh& mesh, double size, PieceKind kind, Segmentation& s) {
     seen = look(mesh, kSamples, s);
     s.backed = meets_something(seen.rays);
   }
-  return std::move(seen.near);
+  return seen;
 }
 
 }  // namespace
@@ -397,15 +397,16 @@ Segmentation segment(const Mesh& mesh) {
 
 Segmentation segment(const Mesh& mesh, double size, PieceKind kind) {
   Segmentation s;
-  const Lists near = classify(mesh, size, kind, s);
+  const auto [near, rays] = classify(mesh, size, kind, s);
   const bool thin = s.wall_thickness > 0;
   s.sample_area = surface_area(mesh) / static_cast<double>(std::max<std::size_t>(1, s.samples.size()));
   const std::vector<glm::vec3> normals = thin ? strip_normals(s) : s.normals;
   const detail::Ground ground{s.samples.points, normals, s.surface, near, s.samples.spacing};
   const bool strips = thin && s.wall_thickness < kStripOfSize * size;
   const std::size_t smallest = detail::smallest_facet(s);
-  static_cast<Cut&>(s) =
-      detail::cut_into(s, detail::grow_facets(ground, strips ? kStripCone : detail::kCone, smallest));
+  auto members = detail::grow_facets(ground, strips ? kStripCone : detail::kCone, smallest);
+  if (thin) detail::take_flanks_for_walls(s, members, rays.length, near);
+  static_cast<Cut&>(s) = detail::cut_into(s, std::move(members));
   if (!thin) s.creased = detail::cut_into(s, detail::facets_between_creases(ground, smallest));
   return s;
 }

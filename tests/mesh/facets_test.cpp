@@ -266,6 +266,17 @@ TEST(Facets, WallMuchThinnerThanMostIsNoBreak) {
   expect_walls(s, 95.0F, thickness);
 }
 
+TEST(Facets, FlanksOfThrowingRidgesAreNoBreaks) {
+  // Three of them, on one side; their slopes lean by up to 34 degrees.
+  const auto thickness = [](float x) {
+    const bool ridged = x > 25.0F && x < 52.0F;
+    return 6.0F + (ridged ? 1.0F - std::cos(2.0F * std::numbers::pi_v<float> * (x - 25.0F) / 9.0F) : 0.0F);
+  };
+  const Segmentation s = segment(plate_as_thick_as(80.0F, thickness));
+  ASSERT_NEAR(s.wall_thickness, 6.0, 0.5);
+  expect_walls(s, 80.0F, thickness);
+}
+
 TEST(Facets, WallsOfANoisyScanAreWalls) {
   Mesh plate = box({80, 60, 6}, 80, flat);
   Random random(5, 0);
