@@ -57,7 +57,7 @@ class BatchCommand final : public Command {
     add_number(app, "--resolution", options_.match.resolution, {8, 2048},
                "pixels across a depth map, 8 to 2048 (128)");
     add_choice(app, "--backend", options_.match.backend, backend_choices(), "what draws");
-    add_seed(app, options_.match.seed, "of the random numbers");
+    add_seed(app, options_.match.seed, "kept with the run; draws nothing");
   }
 
   ExitCode run(Console& console, Context& context) override {
