@@ -19,10 +19,10 @@ double log_odds(double score) {
 }
 
 bool same_pose(const Piece& a, const Piece& b, const Rigid& first, const Rigid& second,
-               const Options& options) {
-  if (angle_between(first, second) > options.same_turn_deg * kDegree) return false;
+               const Options& options, double times) {
+  if (angle_between(first, second) > times * options.same_turn_deg * kDegree) return false;
   const double diameter = std::min(a.fragment().diameter, b.fragment().diameter);
-  return glm::distance(first(b.centre()), second(b.centre())) <= options.same_shift * diameter;
+  return glm::distance(first(b.centre()), second(b.centre())) <= times * options.same_shift * diameter;
 }
 
 }  // namespace rejoin::assembly

@@ -18,7 +18,9 @@ constexpr double kWorthHearing = -6.0;   // certainty from which others are aske
 constexpr double kTogether = 1.0;        // what two unsure joins need together above the limit for one
 constexpr double kTogetherOdds = -5.0;   // of each, at least
 constexpr double kTogetherWorth = -8.0;  // of both, for the third pair to be asked
-constexpr double kNoLess = 500.0;        // more is as much
+constexpr std::size_t kMostTwos =
+    500;                           // are heard at a time: where a pattern repeats there are tens of thousands
+constexpr double kNoLess = 500.0;  // more is as much
 constexpr double kAlike =
     0.5;  // of what speaks for one place of two groups, for another, where patterns repeat
 constexpr double kElsewhere = 3.0;      // of the distances within which poses are the same
@@ -213,25 +215,29 @@ Grower::Question Grower::question(const State& state, std::vector<std::size_t> l
   return result;
 }
 
+/// How the groups move that a question's links put together.
+Grower::Moves Grower::moves(const State& state, const Question& question) const {
+  Moves result{{state.growth.group[question.groups.front().front()], Rigid{}}};
+  while (result.size() < question.groups.size()) {
+    for (const std::size_t link : question.links) {
+      const std::size_t of_a = state.growth.group[links_[link].a];
+      const std::size_t of_b = state.growth.group[links_[link].b];
+      if (result.count(of_a) == result.count(of_b)) continue;
+      const auto [lies, comes] = result.count(of_a) != 0 ? Key{of_a, of_b} : Key{of_b, of_a};
+      result.emplace(comes, result.at(lies) * transform(state, link, lies));
+    }
+  }
+  return result;
+}
+
 /// What the contacts of other pairs add if links put groups together.
 std::optional<Heard> Grower::answer(const State& state, const Question& question) const {
   std::vector<Rigid> poses = state.growth.poses;
+  for (const auto& [group, move] : moves(state, question)) {
+    for (const std::size_t piece : state.members.at(group)) poses[piece] = move * poses[piece];
+  }
   std::vector<Link> links;
   for (const std::size_t link : question.links) links.push_back(links_[link]);
-  std::set<std::size_t> placed{state.growth.group[question.groups.front().front()]};
-  while (placed.size() < question.groups.size()) {
-    for (const Link& l : links) {
-      const std::size_t of_a = state.growth.group[l.a];
-      const std::size_t of_b = state.growth.group[l.b];
-      if (placed.count(of_a) == placed.count(of_b)) continue;
-      const bool b_moves = placed.count(of_a) != 0;
-      const Rigid b_to_a = poses[l.a] * l.pose * inverse(poses[l.b]);
-      const Rigid into = b_moves ? b_to_a : inverse(b_to_a);
-      const std::size_t moves = b_moves ? of_b : of_a;
-      for (const std::size_t piece : state.members.at(moves)) poses[piece] = into * poses[piece];
-      placed.insert(moves);
-    }
-  }
   const auto is_linked = [&](std::size_t a, std::size_t b, const Rigid& b_to_a) {
     return agreeing(a, b, b_to_a) != links_.size();
   };
@@ -239,7 +245,7 @@ std::optional<Heard> Grower::answer(const State& state, const Question& question
 }
 
 /// Answers of several questions, also of those that were asked before.
-Grower::Answers Grower::answers(const State& state, std::vector<Question>& questions,
+Grower::Answers Grower::answers(const State& state, const std::vector<Question>& questions,
                                 const Context& context) {
   Answers result(questions.size());
   parallel_for(questions.size(), 1, [&](std::size_t first, std::size_t last) {
@@ -248,33 +254,43 @@ Grower::Answers Grower::answers(const State& state, std::vector<Question>& quest
       result[k] = known != answered_.end() ? known->second : answer(state, questions[k]);
     }
   });
-  for (std::size_t k = 0; k < questions.size(); ++k) answered_.emplace(std::move(questions[k]), result[k]);
+  for (std::size_t k = 0; k < questions.size(); ++k) answered_.emplace(questions[k], result[k]);
   return result;
 }
 
-/// What is left of the best proposal's log-odds, as its two groups lie in one way at most; nothing where much speaks for another place as
-/// well: where a pattern repeats, neighbours bear out each of several.
-/// \param list  of the two groups, best first, at least one
-double Grower::among_places(const State& state, const Key& key, const std::vector<Proposal>& list) const {
-  const Proposal& best = list.front();
-  const Link& link = links_[best.link];
-  const std::size_t moved = state.growth.group[link.a] == key.second ? link.a : link.b;
-  const glm::dvec3 centre = state.growth.poses[moved](pieces_[moved].centre());
-  const Rigid there = transform(state, best.link, key.first);
-  const double far = kElsewhere * options_.same_shift *
-                     std::min(pieces_[link.a].fragment().diameter, pieces_[link.b].fragment().diameter);
-  double others = 0.0;
+/// Whether a piece that one of the links brings lies elsewhere by other moves of the same groups.
+bool Grower::lies_elsewhere(const State& state, const std::vector<std::size_t>& links,
+                            const Moves& moves) const {
+  return std::ranges::any_of(links, [&](std::size_t link) {
+    const Link& l = links_[link];
+    const auto place = [&](std::size_t k) { return moves.at(state.growth.group[k]) * state.growth.poses[k]; };
+    return !same_pose(pieces_[l.a], pieces_[l.b], l.pose, inverse(place(l.a)) * place(l.b), options_,
+                      kElsewhere);
+  });
+}
+
+/// What is left of log-odds, as groups lie in one way at most; nothing where much speaks for another as well: where a pattern repeats,
+/// neighbours bear out each of several.
+/// \param others  log-odds of the other ways
+double Grower::among_places(double odds, const std::vector<double>& others) const {
+  double sum = 0.0;
   double next = 0.0;
-  for (const Proposal& other : list) {
-    const Rigid elsewhere = transform(state, other.link, key.first);
-    if (angle_between(there, elsewhere) <= kElsewhere * options_.same_turn_deg * kDegree &&
-        glm::distance(there(centre), elsewhere(centre)) <= far)
-      continue;
-    others += std::exp(std::min(kNoLess, other.odds()));
-    next = std::max(next, other.odds());
+  for (const double other : others) {
+    sum += std::exp(std::min(kNoLess, other));
+    next = std::max(next, other);
   }
-  const bool alike = next > log_odds(options_.sure) && next > kAlike * best.odds();
-  return alike ? std::min(0.0, best.odds()) : best.odds() - std::log1p(others);
+  const bool alike = next > log_odds(options_.sure) && next > kAlike * odds;
+  return alike ? std::min(0.0, odds) : odds - std::log1p(sum);
+}
+
+/// among_places() of the first of the proposals of two groups, at least one.
+double Grower::among_places(const State& state, const std::vector<Proposal>& list) const {
+  std::vector<double> others;
+  for (const Proposal& other : list) {
+    if (lies_elsewhere(state, {list.front().link}, moves(state, question(state, {other.link}))))
+      others.push_back(other.odds());
+  }
+  return among_places(list.front().odds(), others);
 }
 
 /// Uses the most certain proposal of all, or finds that it does not fit.  False: none is certain enough.
@@ -284,7 +300,7 @@ bool Grower::try_best(State& state) {
   double odds = 0.0;
   for (auto& [key, list] : state.proposals) {
     if (list.empty() || list.front().certainty() <= most) continue;
-    const double left = among_places(state, key, list);
+    const double left = among_places(state, list);
     const bool wished = list.front().wish > 0.0;  // by the user, or where strong joins contradict each other
     if (!wished && left < log_odds(options_.sure) - 1e-9) continue;
     most = list.front().certainty();
@@ -334,12 +350,36 @@ std::vector<Grower::Two> Grower::unsure_together(const State& state, const Conte
         if (list[x].group == list[y].group || p.certainty() + q.certainty() < kTogetherWorth) continue;
         const double one = p.alone + list[x].heard;
         const double other = q.alone + list[y].heard;
-        result.push_back(
-            {{p.link, q.link}, std::min({one, other, one + other}) - list[x].heard - list[y].heard});
+        const double worth = std::min({one, other, one + other});
+        result.push_back({{p.link, q.link}, worth - list[x].heard - list[y].heard, worth});
       }
     }
   }
+  std::stable_sort(result.begin(), result.end(),
+                   [](const Two& x, const Two& y) { return x.worth > y.worth; });
+  if (result.size() > kMostTwos) result.resize(kMostTwos);
   return result;
+}
+
+/// The surest of some ways to put groups together, with what is left of its log-odds; nothing if that is no more than the least.
+std::optional<Grower::Way> Grower::surest(const State& state, const std::vector<Way>& ways,
+                                          double least) const {
+  std::optional<Way> best;
+  double most = least;
+  for (const Way& way : ways) {
+    if (way.odds <= most) continue;
+    std::vector<double> others;
+    for (const Way& other : ways) {
+      if (other.question.groups == way.question.groups &&
+          lies_elsewhere(state, way.question.links, moves(state, other.question)))
+        others.push_back(other.odds);
+    }
+    const double left = among_places(way.odds, others);
+    if (left <= least) continue;
+    most = way.odds;
+    best = {way.question, left, way.vouched};
+  }
+  return best;
 }
 
 /// Three groups that two unsure joins put together, so that contacts of other pairs speak for both at once.
@@ -348,94 +388,31 @@ bool Grower::try_two(State& state, const Context& context) {
   std::vector<Question> questions;
   questions.reserve(unsure.size());
   for (const Two& two : unsure) questions.push_back(question(state, {two.links.begin(), two.links.end()}));
+  std::vector<Way> ways;
   const Answers heard = answers(state, questions, context);
-  double most = log_odds(options_.sure) + kTogether;
-  std::array<std::size_t, 2> best{};
-  double vouched = 0.0;
   for (std::size_t k = 0; k < unsure.size(); ++k) {
-    if (!heard[k] || unsure[k].alone + heard[k]->all <= most) continue;
-    most = unsure[k].alone + heard[k]->all;
-    best = unsure[k].links;
-    vouched = heard[k]->unlinked;
+    if (heard[k]) ways.push_back({questions[k], unsure[k].alone + heard[k]->all, heard[k]->unlinked});
   }
-  if (best[0] == best[1]) return false;
-  for (const std::size_t link : best) {  // whatever happens, these two are not tried again
+  const std::optional<Way> best = surest(state, ways, log_odds(options_.sure) + kTogether);
+  if (!best) return false;
+  const std::vector<std::size_t>& links = best->question.links;
+  for (const std::size_t link : links) {  // whatever happens, these two are not tried again
     auto& list =
         state.proposals[key_of(state.growth.group[links_[link].a], state.growth.group[links_[link].b])];
     const auto same = [&](const Proposal& p) { return p.link == link; };
     list.erase(std::remove_if(list.begin(), list.end(), same), list.end());
   }
-  if (!fits(state, best[0])) return true;
+  if (!fits(state, links[0])) return true;
   State both = state;  // neither is sure without the other
-  merge(both, best[0], most);
-  if (!fits(both, best[1])) {
+  merge(both, links[0], best->odds);
+  if (!fits(both, links[1])) {
     state.growth.rejected = std::move(both.growth.rejected);
     return true;
   }
-  merge(both, best[1], most);
-  both.growth.vouched += vouched;
+  merge(both, links[1], best->odds);
+  both.growth.vouched += best->vouched;
   state = std::move(both);
   return true;
-}
-
-bool Grower::overlap(std::size_t a, std::size_t b, const Rigid& b_to_a) {
-  if (!are_near(pieces_[a], pieces_[b], b_to_a, 0.0)) return false;  // most are not: nothing to keep
-  std::vector<double> key{static_cast<double>(a), static_cast<double>(b)};
-  for (int k = 0; k < 3; ++k) {
-    key.insert(key.end(),
-               {b_to_a.rotation[k].x, b_to_a.rotation[k].y, b_to_a.rotation[k].z, b_to_a.translation[k]});
-  }
-  const auto [place, fresh] = overlaps_.try_emplace(std::move(key), false);
-  if (fresh) place->second = interpenetrate(pieces_[a], pieces_[b], b_to_a);
-  return place->second;
-}
-
-/// Whether the two groups of a link can lie as it says.
-bool Grower::fits(State& state, std::size_t link) {
-  const std::size_t into = state.growth.group[links_[link].a];
-  const std::size_t from = state.growth.group[links_[link].b];
-  const Rigid from_to_into = transform(state, link, into);
-  for (const std::size_t a : state.members[into]) {
-    for (const std::size_t b : state.members[from]) {
-      const Rigid b_to_a = inverse(state.growth.poses[a]) * from_to_into * state.growth.poses[b];
-      if (overlap(a, b, b_to_a)) {
-        state.growth.rejected.push_back({link, Rejection::Why::Overlap, a, b});
-        return false;
-      }
-    }
-  }
-  const auto touching = forbidden_touch(state, link);
-  if (touching)
-    state.growth.rejected.push_back({link, Rejection::Why::Forbidden, touching->first, touching->second});
-  return !touching;
-}
-
-/// Two pieces that must not join and would touch if a link put its groups together.  What is near is settled first, as the errors of
-/// links add up to more than the distance at which surfaces touch.
-std::optional<Grower::Key> Grower::forbidden_touch(const State& state, std::size_t link) const {
-  const std::size_t into = state.growth.group[links_[link].a];
-  const std::size_t from = state.growth.group[links_[link].b];
-  if (into == from) return std::nullopt;
-  const Rigid from_to_into = transform(state, link, into);
-  std::vector<Key> near;
-  for (const Key& pair : unwanted_) {
-    const auto [a, b] = pair;
-    if (key_of(state.growth.group[a], state.growth.group[b]) != key_of(into, from)) continue;
-    const Rigid across = state.growth.group[a] == into ? from_to_into : inverse(from_to_into);
-    const Rigid b_to_a = inverse(state.growth.poses[a]) * across * state.growth.poses[b];
-    if (touch_forbidden(pieces_[a], pieces_[b], b_to_a)) return pair;
-    if (are_near(pieces_[a], pieces_[b], b_to_a, 0.0)) near.push_back(pair);
-  }
-  if (near.empty()) return std::nullopt;
-  State together = state;
-  merge(together, link, 0.0);
-  Growth& growth = together.growth;
-  settle(growth, together.members.at(growth.group[links_[link].a]));
-  const auto touching = std::ranges::find_if(near, [&](const Key& pair) {
-    const auto [a, b] = pair;
-    return touch_forbidden(pieces_[a], pieces_[b], inverse(growth.poses[a]) * growth.poses[b]);
-  });
-  return touching != near.end() ? std::optional(*touching) : std::nullopt;
 }
 
 void Grower::merge(State& state, std::size_t link, double odds) const {

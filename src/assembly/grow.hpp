@@ -90,14 +90,25 @@ class Grower {
     }
   };
 
+  /// How groups move, by their numbers: the first of a question not.
+  using Moves = std::map<std::size_t, Rigid>;
+
+  /// What a question came to.
+  struct Way {
+    Question question;
+    double odds;     ///< log-odds of its links, with what contacts of other pairs add
+    double vouched;  ///< by contacts without links
+  };
+
   /// What contacts of other pairs add; nothing where pieces would lie in each other.
   using Answers = std::vector<std::optional<Heard>>;
 
   /// Two links that make three groups one.
   struct Two {
     std::array<std::size_t, 2> links;
+    double alone;  ///< log-odds of `worth`, less what both hear alone
     double
-        alone;  ///< log-odds of both with what either hears alone, against that only one is true and that none is, less what both hear
+        worth;  ///< log-odds of both with what either hears alone, against that only one is true and that none is
   };
 
   /// One growth on its way.
@@ -119,10 +130,14 @@ class Grower {
   bool hear(State& state, const Context& context);
   Question question(const State& state, std::vector<std::size_t> links) const;
   std::optional<Heard> answer(const State& state, const Question& question) const;
-  Answers answers(const State& state, std::vector<Question>& questions, const Context& context);
-  double among_places(const State& state, const Key& key, const std::vector<Proposal>& list) const;
+  Answers answers(const State& state, const std::vector<Question>& questions, const Context& context);
+  Moves moves(const State& state, const Question& question) const;
+  bool lies_elsewhere(const State& state, const std::vector<std::size_t>& links, const Moves& moves) const;
+  double among_places(double odds, const std::vector<double>& others) const;
+  double among_places(const State& state, const std::vector<Proposal>& list) const;
   bool try_best(State& state);
   bool try_two(State& state, const Context& context);
+  std::optional<Way> surest(const State& state, const std::vector<Way>& ways, double least) const;
   std::vector<Two> unsure_together(const State& state, const Context& context);
   bool fits(State& state, std::size_t link);
   std::optional<Key> forbidden_touch(const State& state, std::size_t link) const;

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <set>
 #include <utility>
 
@@ -271,6 +273,40 @@ TEST(Assemble, TwoUnsureJoinsAreUsedWhereTheThirdPairFitsThatNobodySearchedFor) 
   }
   EXPECT_LT(ball().worst_turn(result), 0.5);
   EXPECT_EQ(run(ball(), {one, ball().false_link(corner.b, corner.c, 0.1, 20.0, 0.05)}).groups, 0);
+}
+
+/// Three equal sectors of a ring with one bumpy break between them, so that any may follow any.
+Box equal_sectors() {
+  constexpr int kCells = 60;
+  const auto bump = [](float r, float z) {
+    return 0.6F * std::sin(1.3F * r + 0.7F * z) + 0.5F * std::cos(0.9F * z - 1.7F * r) +
+           0.4F * std::sin(2.3F * z);
+  };
+  mesh::Mesh sector = mesh::test::box({1, 1, 1}, kCells);
+  for (glm::vec3& p : sector.vertices) {
+    p += 0.5F;  // the box lies about the origin
+    const float r = 4.0F + 8.0F * p.x;
+    const float z = 14.0F * p.z;
+    const float around = 2.0F * std::numbers::pi_v<float> / 3.0F * p.y + bump(r, z) / r;
+    p = {r * std::cos(around), r * std::sin(around), z};
+  }
+  Box box;
+  for (int k = 0; k < 3; ++k) {
+    box.fragments.push_back(match::prepare("sector", sector, Context()));
+    box.to_world.push_back({axis_rotation({0, 0, 1}, 120.0 * k * kDegree), {}});
+  }
+  return box;
+}
+
+// Where each is heard alone, the third contact bears out either order.
+TEST(Assemble, OfTwoWaysToPutThreeTogetherThatFitAlikeNoneIsSure) {
+  const Box box = equal_sectors();
+  std::vector<Link> links{box.true_link(0, 1, 0.1), box.true_link(1, 2, 0.1)};
+  ASSERT_EQ(run(box, links).groups, 1);
+  const Rigid back = inverse(box.truth(0, 1));
+  links.push_back({0, 1, back, 0.1});
+  links.push_back({1, 2, back, 0.1});
+  EXPECT_EQ(run(box, links).groups, 0);
 }
 
 TEST(Witness, OtherContactsSpeakForTrueLinksOnly) {
