@@ -128,8 +128,8 @@ class MatchCommand final : public Command {
     const auto begin = std::chrono::steady_clock::now();
     match::Options options = options_.values();
     require_free_search(options);
-    if (near_) options.near = read_pose(*near_, path_a_, path_b_);
     require_two_files(path_a_, path_b_);
+    if (near_) options.near = read_pose(*near_, path_a_, path_b_);
     if (out_) require_out();  // first, for --json may lie in it
     if (json_) require_writable_file(*json_);
     match::Fragment a = load_fragment(path_a_, console, context, kind_of(solid_));

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <sstream>
@@ -12,6 +13,7 @@
 #include "core/utf8.hpp"
 
 namespace rejoin::cli {
+namespace fs = std::filesystem;
 namespace {
 
 using nlohmann::ordered_json;
@@ -50,18 +52,49 @@ ordered_json rows_of_numbers(const std::string& text) {
 
 namespace {
 
-std::string file_name(const std::string& path) {
-  return std::filesystem::path(path).filename().string();
+/// The path that a match's JSON tells of a piece; empty: none.
+std::string told_path(const ordered_json& json, const char* piece) {
+  const ordered_json told = json.is_object() ? json.value(piece, ordered_json()) : ordered_json();
+  const ordered_json path = told.is_object() ? told.value("path", ordered_json()) : ordered_json();
+  return path.is_string() ? path.get<std::string>() : "";
 }
 
-/// Whether a match's JSON tells of A as B and of B as A.
-bool is_of_swapped(const ordered_json& json, const std::string& path_a, const std::string& path_b) {
-  const auto names = [&](const char* piece, const std::string& path) {
-    const ordered_json told = json.is_object() ? json.value(piece, ordered_json()) : ordered_json();
-    const ordered_json of = told.is_object() ? told.value("path", ordered_json()) : ordered_json();
-    return of.is_string() && file_name(of.get<std::string>()) == file_name(path);
+/// How many names two paths have in common, from the files' own on; of one path also what is above all folders.
+int names_in_common(fs::path a, fs::path b) {
+  int count = 0;
+  for (; a.has_filename() && a.filename() == b.filename(); a = a.parent_path(), b = b.parent_path()) ++count;
+  return count > 0 && a == b ? count + 1 : count;
+}
+
+/// The same of the paths as they stand, or with all links followed where that is more.
+int in_common(const std::string& a, const std::string& b) {
+  const auto real = [](const std::string& path) {
+    std::error_code ignored;
+    return fs::weakly_canonical(fs::absolute(path), ignored);
   };
-  return names("a", path_b) && names("b", path_a) && !names("a", path_a);
+  const auto written = [](const std::string& path) { return fs::absolute(path).lexically_normal(); };
+  if (a.empty() || b.empty()) return 0;
+  return std::max(names_in_common(real(a), real(b)), names_in_common(written(a), written(b)));
+}
+
+/// Whether a match's JSON tells of A as B and of B as A.  Where the files' names are the same their folders tell; a match may have been
+/// made in another folder, or its files have moved.
+/// \throws InputError they do not tell
+bool is_of_swapped(const std::string& path, const ordered_json& json, const std::string& path_a,
+                   const std::string& path_b) {
+  const auto agreement = [&](const std::string& a, const std::string& b) {
+    const int of_a = in_common(told_path(json, "a"), a);
+    const int of_b = in_common(told_path(json, "b"), b);
+    return of_a > 0 && of_b > 0 ? of_a + of_b : 0;
+  };
+  const int as_given = agreement(path_a, path_b);
+  const int swapped = agreement(path_b, path_a);
+  if (swapped > 0 && swapped == as_given) {
+    throw InputError(
+        path, fmt::format("does not tell which {} is A", fs::path(path_a).filename().string()),
+        "give both paths as they were given to rejoin match, or the four rows of the pose alone");
+  }
+  return swapped > as_given;
 }
 
 /// The file's pose, and its JSON.
@@ -86,7 +119,7 @@ Rigid read_pose(const std::string& path) {
 
 Rigid read_pose(const std::string& path, const std::string& path_a, const std::string& path_b) {
   const auto [pose, json] = pose_and_json(path);
-  return is_of_swapped(json, path_a, path_b) ? inverse(pose) : pose;
+  return is_of_swapped(path, json, path_a, path_b) ? inverse(pose) : pose;
 }
 
 }  // namespace rejoin::cli

@@ -13,7 +13,9 @@ namespace rejoin::cli {
 /// \throws IoError it cannot be read   \throws InputError it holds no proper rigid motion, or is an assembly
 Rigid read_pose(const std::string& path);
 
-/// The same for a pair, B -> A: the JSON of a match of B and A, by their files' names, is turned round.
+/// The same for a pair, B -> A: the JSON of a match of B and A is turned round, by their files' names, and by their folders where these
+/// are the same.
+/// \throws InputError also if the JSON is of two files of one name and its folders do not tell which of them is A
 Rigid read_pose(const std::string& path, const std::string& path_a, const std::string& path_b);
 
 /// Sixteen numbers as four rows, as they are in files of poses; a discarded value if the text is anything else.

@@ -101,6 +101,40 @@ TEST(ReadPose, MayHaveThreeDecimals) {
   }
 }
 
+TEST(ReadPose, OfAMatchIsTurnedRoundByItsPathsWhereNamesAreTheSame) {
+  const TemporaryFolder folder;
+  const std::string file = folder / "match.json";
+  const auto shift = [&](const std::string& told_a, const std::string& told_b, const std::string& a,
+                         const std::string& b) {
+    write_file(file, fmt::format(R"({{"a": {{"path": "{}"}}, "b": {{"path": "{}"}},
+        "pose": [[1, 0, 0, 5], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}})",
+                                 told_a, told_b));
+    return read_pose(file, a, b).translation.x;
+  };
+  const std::string one = folder / "one/model.drc";
+  const std::string two = folder / "two/model.drc";
+  EXPECT_EQ(shift(one, two, one, two), 5);
+  EXPECT_EQ(shift(one, two, two, one), -5);
+  EXPECT_EQ(shift(one, two, folder / "two/../one/model.drc", two), 5);
+  EXPECT_EQ(shift(one, two, two, folder / "two/../one/model.drc"), -5);
+  // Told from another folder, or moved since.
+  EXPECT_EQ(shift("one/model.drc", "two/model.drc", one, two), 5);
+  EXPECT_EQ(shift("one/model.drc", "two/model.drc", two, one), -5);
+  EXPECT_EQ(shift(one, two, "/elsewhere/two/model.drc", "/elsewhere/model.drc"), -5);
+  // Names alone, of which one that is not the same tells enough.
+  EXPECT_EQ(shift("x/a.ply", "x/b.ply", "y/a.ply", "z/b.ply"), 5);
+  EXPECT_EQ(shift("x/a.ply", "x/b.ply", "y/b.ply", "z/a.ply"), -5);
+  EXPECT_EQ(shift("x/c.ply", "x/d.ply", "y/b.ply", "z/a.ply"), 5) << "of others, as a rough pose may be";
+  try {
+    shift(one, two, "/elsewhere/three/model.drc", "/elsewhere/four/model.drc");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("match.json: does not tell which model.drc is A"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(ReadPose, OfAnAssemblyTellsWhatIsNeeded) {
   const TemporaryFolder folder;
   write_file(folder / "assembly.json", R"({"schema": "rejoin.assembly/1", "fragments": {}})");
