@@ -53,12 +53,13 @@ SELECT count(*) FROM part.pair p LEFT JOIN ours u ON u.theirs = p.a LEFT JOIN ou
                     AND (q.stage <> 'failed' OR p.stage = 'failed'))
 )sql";
 
-std::string copy_candidates() {
+/// \param slides  has_slides() of the attached run
+std::string copy_candidates(bool slides) {
   return fmt::format(
-      "INSERT INTO main.candidate (a, b, {0}) SELECT x.id, y.id, {0} FROM part.candidate c "
+      "INSERT INTO main.candidate (a, b, {}) SELECT x.id, y.id, {} FROM part.candidate c "
       "JOIN part.fragment u ON u.id = c.a JOIN main.fragment x ON x.name = u.name "
       "JOIN part.fragment v ON v.id = c.b JOIN main.fragment y ON y.name = v.name",
-      detail::candidate_columns(true));
+      detail::candidate_columns(true), detail::candidate_columns(slides));
 }
 
 /// Which of two runs knows more of a fragment: one that could use it, then one that looked at it.
@@ -187,7 +188,7 @@ void copy_pairs(SQLite::Database& database, const fs::path& folder) {
   attach.exec();
   SQLite::Transaction transaction(database);
   database.exec(kCopyPairs);
-  database.exec(copy_candidates());
+  database.exec(copy_candidates(detail::has_slides(database, "part")));
   transaction.commit();
   database.exec("DETACH part");
 }

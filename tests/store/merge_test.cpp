@@ -1,5 +1,6 @@
 #include "store/merge.hpp"
 
+#include <SQLiteCpp/Database.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -95,6 +96,27 @@ TEST_F(Merge, FragmentsAreNumberedByNameAndTakenFromWhoLookedAtThem) {
   for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(fragments[k].id, static_cast<std::int64_t>(k + 1));
   EXPECT_EQ(fragments[1].state, FragmentState::Ready) << "the first shard did not look at c, the second did";
   EXPECT_EQ(fragments[1].faces, 17);
+}
+
+TEST_F(Merge, ShardsOfEarlierSchemasAreTakenWithTheirCandidates) {
+  const fs::path x = shard("x", {"a", "b"}, 0.5);
+  const fs::path y = shard("y", {"c", "d"}, 0.75);
+  const auto make_earlier = [&](const std::string& change) {
+    for (const fs::path& run : {x, y}) SQLite::Database(run / kFileName, SQLite::OPEN_READWRITE).exec(change);
+  };
+  for (const char* change :
+       {"ALTER TABLE candidate DROP COLUMN slides; PRAGMA user_version = 3",
+        "ALTER TABLE fragment DROP COLUMN pose; ALTER TABLE fragment DROP COLUMN facets; "
+        "PRAGMA user_version = 2",
+        "ALTER TABLE fragment DROP COLUMN spacing; ALTER TABLE fragment DROP COLUMN noise; "
+        "ALTER TABLE fragment DROP COLUMN wall; PRAGMA user_version = 1"}) {
+    make_earlier(change);
+    EXPECT_EQ(merge({x, y}, output()).pairs, 2U) << change;
+    const store::Run whole = store::Run::open(output());
+    ASSERT_EQ(whole.candidates(3, 4).size(), 2U) << change;
+    EXPECT_EQ(whole.candidates(3, 4)[0].score, 0.75) << change;
+    EXPECT_FALSE(whole.candidates(3, 4)[0].slides) << change;
+  }
 }
 
 TEST_F(Merge, PairThatTwoShardsHaveIsTakenOnce) {

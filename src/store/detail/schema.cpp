@@ -180,8 +180,8 @@ bool has_hints(SQLite::Database& database) {
   return pragma(database, "user_version") >= 3;
 }
 
-bool has_slides(SQLite::Database& database) {
-  return pragma(database, "user_version") >= 4;
+bool has_slides(SQLite::Database& database, const std::string& name) {
+  return pragma(database, (name + ".user_version").c_str()) >= 4;
 }
 
 std::filesystem::path database_file(const std::filesystem::path& folder) {

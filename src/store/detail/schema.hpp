@@ -33,7 +33,8 @@ bool has_lengths(SQLite::Database& database);
 bool has_hints(SQLite::Database& database);
 
 /// Whether candidates tell whether one piece slides along the other, as from schema 4 on.
-bool has_slides(SQLite::Database& database);
+/// \param name  "main", or the name under which another database is attached
+bool has_slides(SQLite::Database& database, const std::string& name = "main");
 
 /// The database of a run's folder, or the file itself.
 std::filesystem::path database_file(const std::filesystem::path& folder);
