@@ -142,6 +142,33 @@ TEST_F(Svg, CopiesStandWhereTheyAreShown) {
             Boxes{"30,0,10,5"});
 }
 
+/// A drawing that defines a group of 10 by 10 squares, 10 apart.
+std::string with_hundred_squares(const std::string& content) {
+  std::string squares;
+  for (int k = 0; k < 100; ++k)
+    squares += fmt::format("<rect x='{}' y='{}' width='5' height='5'/>", 10 * (k % 10), 10 * (k / 10));
+  return "<svg viewBox='0 0 100000 100000'><defs><g id='g'>" + squares + "</g></defs>" + content + "</svg>";
+}
+
+TEST_F(Svg, CopiesAreCountedByWhatTheyDraw) {
+  std::string copies;
+  for (int k = 0; k < 2000; ++k)
+    copies += fmt::format("<use href='#g' x='{}' y='{}'/>", 100 * (k % 50), k / 50 * 100);
+  expect_refusal("a.svg", with_hundred_squares(copies), "has more than 20000 copies of shapes");
+}
+
+TEST_F(Svg, ShapesThatAreDrawnTwiceButForRoundingCountOnce) {
+  std::string copies;
+  for (int k = 0; k < 18; ++k)
+    copies += fmt::format("<use href='#g' x='{0}' y='7000'/><use href='#g' x='{0}.0000000001' y='7000'/>",
+                          100 * k / 2);
+  const PieceSet set = read_pieces(write("a.svg", with_hundred_squares(copies)));
+  EXPECT_EQ(set.pieces.size(), 950U);
+  ASSERT_EQ(set.notes.size(), 1U);
+  EXPECT_NE(set.notes[0].find("2650 shapes drawn twice; each counts once"), std::string::npos)
+      << set.notes[0];
+}
+
 TEST_F(Svg, StyleSheetsHideAndMove) {
   using Boxes = std::vector<std::string>;
   const auto boxes = [&](const std::string& sheet, const std::string& content) {

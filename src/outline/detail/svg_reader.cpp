@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <pugixml.hpp>
 #include <set>
 #include <string_view>
@@ -19,8 +20,8 @@ namespace {
 
 using Polygon = std::vector<glm::dvec2>;
 
-constexpr int kDeepest = 200;  ///< groups in groups, and copies in copies
-constexpr int kMostCopies = 10000;
+constexpr int kDeepest = 200;        ///< groups in groups, and copies in copies
+constexpr int kMostCopies = 20000;   ///< of elements, all that a copied group holds counted
 constexpr double kPageEdge = 1e-3;   ///< of its size, by which a page's background may miss it
 constexpr double kSameShape = 1e-9;  ///< of the coordinates, by which a shape that is drawn twice may differ
 
@@ -30,6 +31,7 @@ struct Scope {
   glm::dvec2 size{0.0};  ///< of the drawing that it is in, for lengths in %
   bool displayed = true;
   bool visible = true;
+  bool copied = false;
 };
 
 /// Elements whose content is not drawn where it stands.
@@ -60,16 +62,43 @@ bool same_polygon(const Polygon& a, const Polygon& b) {
   });
 }
 
+/// A number by which a same_polygon() can be found among many, and how far apart those of two may be.
+struct Mark {
+  double at = 0.0;
+  double slack = 0.0;
+};
+Mark mark_of(const Polygon& polygon) {
+  constexpr double kOfY = 1.4142135623730951;  // shapes in rows and columns have other numbers each
+  Mark mark;
+  for (const glm::dvec2& p : polygon) {
+    mark.at += p.x + kOfY * p.y;
+    mark.slack += 4.0 * kSameShape * (std::abs(p.x) + std::abs(p.y));  // sqrt(3) times, and rounding
+  }
+  return mark;
+}
+
+/// The upright rectangle around a polygon.
+ViewBox box_of(const Polygon& polygon) {
+  ViewBox box;
+  box.low = box.high = polygon[0];
+  for (const glm::dvec2& p : polygon) {
+    box.low = glm::min(box.low, p);
+    box.high = glm::max(box.high, p);
+  }
+  return box;
+}
+
+/// contains(), at little cost for points that are not even in the polygon's box.
+bool is_around(const Polygon& polygon, const ViewBox& box, const glm::dvec2& point) {
+  return glm::all(glm::lessThanEqual(box.low, point)) && glm::all(glm::lessThanEqual(point, box.high)) &&
+         contains(polygon, point);
+}
+
 /// Whether a polygon is an upright rectangle that covers a page.
 bool covers(const Polygon& polygon, const ViewBox& page) {
   const glm::dvec2 slack = kPageEdge * (page.high - page.low);
   if (slack.x <= 0.0 || slack.y <= 0.0 || polygon.size() > 5) return false;
-  glm::dvec2 low = polygon[0];
-  glm::dvec2 high = polygon[0];
-  for (const glm::dvec2& p : polygon) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
+  const auto [low, high] = box_of(polygon);
   return glm::all(glm::lessThanEqual(low, page.low + slack)) &&
          glm::all(glm::greaterThanEqual(high, page.high - slack)) &&
          std::abs(signed_area(polygon)) > (1.0 - kPageEdge) * (high.x - low.x) * (high.y - low.y);
@@ -90,8 +119,10 @@ std::vector<Rings> nest(const std::vector<Shape>& shapes, std::size_t& separate)
   std::vector<std::size_t> order(shapes.size());
   std::vector<double> areas;
   std::vector<glm::dvec2> inside;
+  std::vector<ViewBox> boxes;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     order[i] = i;
+    boxes.push_back(box_of(shapes[i].polygon));
     areas.push_back(std::abs(signed_area(shapes[i].polygon)));
     inside.push_back(inner_point(shapes[i].polygon));
   }
@@ -102,8 +133,8 @@ std::vector<Rings> nest(const std::vector<Shape>& shapes, std::size_t& separate)
   for (std::size_t k = 0; k < order.size(); ++k) {
     const std::size_t own = order[k];
     std::size_t parent = own;
-    for (std::size_t other = 0; other < k; ++other) {  // the last one around it is the smallest
-      if (contains(shapes[order[other]].polygon, inside[own])) parent = order[other];
+    for (std::size_t other = k; parent == own && other-- > 0;) {  // the last one around it is the smallest
+      if (is_around(shapes[order[other]].polygon, boxes[order[other]], inside[own])) parent = order[other];
     }
     const bool hole = parent != own && depth[parent] % 2 == 0;
     depth[own] = parent == own ? 0 : depth[parent] + 1;
@@ -164,6 +195,8 @@ class SvgReader {
   void draw(const pugi::xml_node& node, const std::string& name, Scope scope, int depth,
             const pugi::xml_node& use = {}) {
     if (depth > kDeepest) throw InputError(path_, "groups lie too deep in each other", kSvgMend);
+    if (scope.copied && ++copies_ > kMostCopies)
+      throw InputError(path_, fmt::format("has more than {} copies of shapes", kMostCopies), kSvgMend);
     look_for_unread(node, name, depth);
     enter(node, scope);
     if (name == "symbol" || (name == "svg" && depth > 0)) enter_drawing(node, use, scope);
@@ -173,8 +206,6 @@ class SvgReader {
   }
 
   void draw_copy(const pugi::xml_node& use, Scope scope, int depth) {
-    if (++copies_ > kMostCopies)
-      throw InputError(path_, fmt::format("has more than {} copies of shapes", kMostCopies), kSvgMend);
     const pugi::xml_node original = original_of(use);
     const std::string name = local_name(original);
     if (!original || (is_drawn_elsewhere(name) && name != "symbol")) {
@@ -184,6 +215,7 @@ class SvgReader {
     const auto x = length_of(use, "x", scope.size.x, path_);
     const auto y = length_of(use, "y", scope.size.y, path_);
     scope.to_page = scope.to_page * shift({x ? x->value : 0.0, y ? y->value : 0.0});
+    scope.copied = true;
     draw(original, name, scope, depth + 1, use);
   }
 
@@ -254,12 +286,13 @@ class SvgReader {
     std::erase_if(polygons, [](const Polygon& polygon) { return polygon.size() < 3; });
     if (polygons.empty()) return;
     ++elements_;
+    std::vector<ViewBox> boxes(polygons.size());
+    std::ranges::transform(polygons, boxes.begin(), box_of);
     std::vector<char> hole(polygons.size(), 0);
     for (std::size_t i = 0; i < polygons.size() && polygons.size() > 1; ++i) {
       const glm::dvec2 inside = inner_point(polygons[i]);
-      const auto around = std::ranges::count_if(
-          polygons, [&](const Polygon& other) { return &other != &polygons[i] && contains(other, inside); });
-      hole[i] = around % 2 == 1 ? 1 : 0;
+      for (std::size_t k = 0; k < polygons.size(); ++k)
+        if (k != i && is_around(polygons[k], boxes[k], inside)) hole[i] = hole[i] == 0 ? 1 : 0;
     }
     for (std::size_t i = 0; i < polygons.size(); ++i)
       add({std::move(polygons[i]), elements_, hole[i] != 0, doubts[i]}, scope);
@@ -272,17 +305,24 @@ class SvgReader {
     }
     for (glm::dvec2& p : shape.polygon) p = glm::dvec2(scope.to_page * glm::dvec3(p, 1.0));
     require_usual_points(shape.polygon, fmt::format("{}, shape {}", path_, shapes_.size() + 1));
-    // The hole of one shape may be another.
-    const auto same = [&](const Shape& other) {
-      return shape.hole == other.hole && same_polygon(shape.polygon, other.polygon);
-    };
-    if (std::ranges::any_of(shapes_, same)) {
+    if (is_drawn(shape)) {
       ++repeated_;
       return;
     }
     if (shape.doubt)
       notes_.push_back(fmt::format("{}, shape {}: {}", path_, shapes_.size() + 1, *shape.doubt));
+    marks_.emplace(mark_of(shape.polygon).at, shapes_.size());
     shapes_.push_back(std::move(shape));
+  }
+
+  /// The hole of one shape may be another.
+  bool is_drawn(const Shape& shape) const {
+    const Mark mark = mark_of(shape.polygon);
+    const auto end = marks_.upper_bound(mark.at + mark.slack);
+    return std::any_of(marks_.lower_bound(mark.at - mark.slack), end, [&](const auto& marked) {
+      const Shape& other = shapes_[marked.second];
+      return shape.hole == other.hole && same_polygon(shape.polygon, other.polygon);
+    });
   }
 
   /// A rectangle as large as the page would have all pieces as holes.
@@ -298,6 +338,7 @@ class SvgReader {
   std::vector<std::string>& notes_;
   ViewBox page_;
   std::vector<Shape> shapes_;
+  std::multimap<double, std::size_t> marks_;  ///< of shapes_, by number
   std::size_t elements_ = 0;
   std::size_t hidden_ = 0;
   std::size_t repeated_ = 0;
