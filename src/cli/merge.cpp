@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,7 +40,11 @@ class MergeCommand final : public Command {
   ExitCode run(Console& console, Context& /*context*/) override {
     const NothingToSave guard;
     const std::filesystem::path out = out_;
-    const store::Merged merged = store::merge({runs_.begin(), runs_.end()}, out);
+    std::optional<RemoveWhenKilled> killed;
+    const store::Merged merged = store::merge(
+        {runs_.begin(), runs_.end()}, out,
+        [&](const std::filesystem::path& part) { killed.emplace(std::filesystem::absolute(part)); });
+    killed.reset();
     std::vector<std::filesystem::path> caches;
     for (const std::string& run : runs_) caches.push_back(store::folder_of(run) / batch::kCacheName);
     batch::gather_surfaces(caches, out / batch::kCacheName);

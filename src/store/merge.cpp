@@ -299,13 +299,16 @@ class PartFolder {
 
 }  // namespace
 
-Merged merge(const std::vector<fs::path>& runs, const fs::path& output) {
+Merged merge(const std::vector<fs::path>& runs, const fs::path& output,
+             const std::function<void(const fs::path&)>& making) {
   require_each_once(runs);
   const Whole whole = survey(runs);
   require_no_shard(output);
   require_writable_folder(output);
   const detail::WriteLock lock((output / detail::kLockName).string());
-  const PartFolder part(output / "merge.part");
+  const fs::path place = output / "merge.part";
+  if (making) making(place);
+  const PartFolder part(place);
   make_fragments(part.path(), whole);
   const std::string path = (part.path() / kFileName).string();
   const auto absent = absent_shards(whole.shards);

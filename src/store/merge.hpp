@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -25,9 +26,12 @@ struct Merged {
 /// \param runs    folders of runs, at least one, made with the same parameters, each once; the output may be one of them unless it is
 ///                a shard
 /// \param output  an existing folder
+/// \param making  is told the folder in the output in which the new database is made, before that is; it goes again, also if the merge
+///                fails
 /// \throws StoreError runs were made with other parameters or by another version, a fragment of the same name has another content in two of
 ///         them, the output has pairs that none of the runs has (but for those of scans
 ///         that are gone, if the runs are all shards of a folder) or is a shard, a run is given twice, or a database cannot be used
-Merged merge(const std::vector<std::filesystem::path>& runs, const std::filesystem::path& output);
+Merged merge(const std::vector<std::filesystem::path>& runs, const std::filesystem::path& output,
+             const std::function<void(const std::filesystem::path& folder)>& making = {});
 
 }  // namespace rejoin::store

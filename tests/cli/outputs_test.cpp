@@ -1,14 +1,18 @@
 /// Outputs that would take what is there already, and places that are made for them.
+#include <SQLiteCpp/Database.h>
 #include <gtest/gtest.h>
 
 #include <sys/stat.h>
 #include <sys/wait.h>
 
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include "planted_files.hpp"
@@ -181,6 +185,20 @@ TEST_F(Outputs, FolderThatAnotherCommandWritesIsRefusedBeforeAnyWork) {
   match.finish();
   const Finished later = run({"match", folder / "missing.ply", b, "--out", out});
   EXPECT_NE(later.err.find("missing.ply"), std::string::npos) << later.err;
+}
+
+// The whole is held by a writer, so that the new one waits beside it.
+TEST_F(Outputs, MergeThatIsEndedLeavesNoPart) {
+  const std::string whole = folder / "whole";
+  ASSERT_EQ(run({"merge", run_, "--out", whole}).exit_code, 0);
+  SQLite::Database held(whole + "/run.sqlite", SQLite::OPEN_READWRITE);
+  held.exec("BEGIN IMMEDIATE");
+  Running merge({"merge", run_, "--out", whole});
+  const std::string part = whole + "/merge.part";
+  while (!fs::exists(part)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  merge.interrupt();
+  EXPECT_EQ(merge.finish().exit_code, 130);
+  EXPECT_FALSE(fs::exists(part));
 }
 
 TEST_F(Outputs, WhatIsLargerThanTheUserMayWriteIsToldAndLeavesNothing) {
