@@ -122,6 +122,31 @@ TEST_F(Read, TellsGeoJsonThatSaysItsCoordinatesAreDegrees) {
     EXPECT_TRUE(notes(metres).empty()) << metres;
 }
 
+TEST_F(Read, AsksWhetherGeoJsonWithoutACrsIsInDegreesWherePiecesAreSmall) {
+  const auto notes = [&](const char* polygons, const char* crs = "") {
+    return read_pieces(write("a.geojson", std::string("{") + crs +
+                                              R"("type":"MultiPolygon","coordinates":[)" + polygons + "]}"))
+        .notes;
+  };
+  const char* field = "[[[9.1,60.2],[9.2,60.2],[9.2,60.3],[9.1,60.25]]]";
+  ASSERT_EQ(notes(field).size(), 1U);
+  EXPECT_NE(
+      notes(field)[0].find("a.geojson: if its coordinates are degrees, as without a \"crs\", they are no "
+                           "lengths (at a latitude of 60 one of longitude is 0.50 times"),
+      std::string::npos)
+      << notes(field)[0];
+  EXPECT_EQ(notes("[[[9.1,60.2],[9.2,60.2],[9.2,60.3],[9.1,60.25]]],[[[29.1,60.2],[29.2,60.2],[29.2,60.3],["
+                  "29.1,60.25]]]")
+                .size(),
+            1U)
+      << "far apart";
+  EXPECT_TRUE(notes(field, R"("crs":{"type":"name","properties":{"name":"EPSG:3857"}},)").empty());
+  EXPECT_TRUE(notes("[[[9.1,60.2],[49.2,60.2],[49.2,85.3],[9.1,85.25]]]").empty()) << "as of millimetres";
+  EXPECT_TRUE(notes("[[[9.1,0.2],[9.2,0.2],[9.2,0.3],[9.1,0.25]]]").empty()) << "at the equator";
+  EXPECT_TRUE(notes("[[[9.1,95.2],[9.2,95.2],[9.2,95.3],[9.1,95.25]]]").empty()) << "no latitude";
+  EXPECT_TRUE(notes("[[[190.1,60.2],[190.2,60.2],[190.2,60.3],[190.1,60.25]]]").empty()) << "no longitude";
+}
+
 TEST_F(Read, ARingThatIsNoOutlineIsToldAndLeftOutWhereOthersAreLeft) {
   const std::string good = "[[0,0],[9,0],[9,9],[0,9]]";
   const std::string three = "[[20,0],[21,0],[20,1]]";

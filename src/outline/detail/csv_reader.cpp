@@ -294,17 +294,17 @@ class CsvReader {
 
 }  // namespace
 
-std::optional<std::string> doubt_degrees(const std::string& path, const std::vector<glm::dvec2>& points) {
+std::optional<std::string> doubt_degrees(const std::string& path, const std::vector<glm::dvec2>& points,
+                                         const char* opening) {
   constexpr double kSame = 0.99;
   double latitude = 0.0;
   for (const glm::dvec2& p : points) latitude += p.y / static_cast<double>(points.size());
   const double share = std::cos(latitude * M_PI / 180.0);
   if (std::abs(latitude) > 90.0 || share > kSame) return std::nullopt;
   return fmt::format(
-      "{}: degrees are no lengths (at a latitude of {:.0f} one of longitude is {:.2f} times as long as one "
-      "of "
+      "{}: {} no lengths (at a latitude of {:.0f} one of longitude is {:.2f} times as long as one of "
       "latitude), so that shapes are distorted; write x and y in metres, as of a national grid or UTM",
-      path, latitude, share);
+      path, opening, latitude, share);
 }
 
 std::vector<Rings> read_csv(const std::string& path, const std::string& file,

@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
@@ -100,6 +101,32 @@ bool says_degrees(const json& file) {
   return crs.ends_with("CRS84") || crs.ends_with(":4326");
 }
 
+/// Whether they may be longitudes and latitudes, as those of a file without "crs" are by the standard (RFC 7946, section 4), and hardly
+/// anything else: a piece that is less than one across is none in millimetres.
+bool may_be_degrees(const std::vector<Rings>& pieces) {
+  return std::ranges::all_of(pieces, [](const Rings& piece) {
+    const std::vector<glm::dvec2>& border = piece.rings[0];
+    if (border.empty()) return false;
+    glm::dvec2 low = border[0];
+    glm::dvec2 high = border[0];
+    for (const glm::dvec2& p : border) {
+      low = glm::min(low, p);
+      high = glm::max(high, p);
+    }
+    const glm::dvec2 most(180.0, 90.0);
+    return glm::all(glm::lessThanEqual(-most, low)) && glm::all(glm::lessThanEqual(high, most)) &&
+           glm::all(glm::lessThan(high - low, glm::dvec2(1.0)));
+  });
+}
+
+/// How to begin what is told of degrees; nullptr: they are none.
+const char* opening_of_degrees(const json& file, const std::vector<Rings>& pieces) {
+  if (says_degrees(file)) return "degrees are";
+  const bool silent = !file.contains("crs") || file["crs"].is_null();
+  return silent && may_be_degrees(pieces) ? "if its coordinates are degrees, as without a \"crs\", they are"
+                                          : nullptr;
+}
+
 }  // namespace
 
 std::vector<Rings> read_geojson(const std::string& path, const std::string& text,
@@ -111,8 +138,9 @@ std::vector<Rings> read_geojson(const std::string& path, const std::string& text
   GeoJsonReader reader(path);
   reader.read(value);
   if (reader.result.empty()) throw InputError(path, "holds no polygon", kGeoJsonMend);
-  if (!says_degrees(value)) return std::move(reader.result);
-  if (std::optional<std::string> doubt = doubt_degrees(path, reader.result[0].rings[0]))
+  const char* opening = opening_of_degrees(value, reader.result);
+  if (opening == nullptr) return std::move(reader.result);
+  if (std::optional<std::string> doubt = doubt_degrees(path, reader.result[0].rings[0], opening))
     notes.push_back(std::move(*doubt));
   return std::move(reader.result);
 }

@@ -34,9 +34,12 @@ std::vector<Rings> read_svg(const std::string& path, const std::string& text,
 double svg_units_an_inch(const std::string& path, const std::string& text);
 
 /// What to say of an outline in degrees, longitude first; nullopt: at the equator they are lengths, or these are none.
-std::optional<std::string> doubt_degrees(const std::string& path, const std::vector<glm::dvec2>& points);
+/// \param opening  of the sentence, up to its verb
+std::optional<std::string> doubt_degrees(const std::string& path, const std::vector<glm::dvec2>& points,
+                                         const char* opening = "degrees are");
 
-/// \param notes  gets doubt_degrees() where the file's "crs" says that its coordinates are such
+/// \param notes  gets doubt_degrees() where the file's "crs" says that its coordinates are such; as a question where it has none and all
+///               polygons are smaller than a degree, for millimetres have the numbers of larger ones
 /// \throws InputError broken JSON, or no polygon in it
 std::vector<Rings> read_geojson(const std::string& path, const std::string& text,
                                 std::vector<std::string>& notes);
