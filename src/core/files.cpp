@@ -116,6 +116,13 @@ std::string read_file(const fs::path& path) {
   return bytes;
 }
 
+std::string read_named_file(const fs::path& path) {
+  std::error_code ignored;
+  if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored))
+    throw IoError(path.string(), "is a folder, pipe or device", "put the file itself there");
+  return read_file(path);
+}
+
 void require_writable_file(const fs::path& name) {
   if (is_stdout(name)) return;
   const fs::path path = target_of(name);

@@ -22,6 +22,10 @@ std::string extension_of(const std::filesystem::path& path);
 /// All bytes of a file, or of a pipe until it ends.  \throws IoError it is a folder or cannot be read; with the system's reason
 std::string read_file(const std::filesystem::path& path);
 
+/// The same of a file that another one names: one that never ends, as a pipe that nobody writes to, is refused.
+/// \throws IoError also of a pipe or device
+std::string read_named_file(const std::filesystem::path& path);
+
 /// Finds out now, before the long work, whether the file can be written then; leaves no trace.
 /// \throws IoError it cannot
 void require_writable_file(const std::filesystem::path& path);

@@ -1,6 +1,7 @@
 // Colours that scans have from pictures.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
@@ -113,6 +114,9 @@ TEST_F(ObjTexture, ThatCannotBeReadIsToldAndTheShapeLoads) {
   write_material("notes.png");
   folder_.write("notes.png", "Dear diary");
   expect_note("notes.png: is no PNG");
+  write_material("pipe.png");
+  ASSERT_EQ(mkfifo((folder_ / "pipe.png").c_str(), 0600), 0);
+  expect_note("pipe.png: is a folder, pipe or device");
   folder_.write("my scan.mtl", "\xFF\xFEm");
   expect_note("my scan.mtl: is text in UTF-16");
   folder_.write("my scan.mtl", "newmtl skin stone\nmap_Kd\nmap_Kd -s 1 1\nmap_Kd -\n");
@@ -210,6 +214,8 @@ TEST_F(GltfTexture, ThatCannotBeReadIsToldAndTheShapeLoads) {
     EXPECT_NE(loaded.warnings[0].find(words), std::string::npos) << loaded.warnings[0];
   };
   expect_note({R"({"uri":"missing.png"})"}, "missing.png: cannot be");
+  ASSERT_EQ(mkfifo((folder_ / "pipe.png").c_str(), 0600), 0);
+  expect_note({R"({"uri":"pipe.png"})"}, "pipe.png: is a folder, pipe or device");
   expect_note({R"({"bufferView":7})"}, "bufferView 7 does not exist");
   expect_note({R"({"uri":"data:image/png;base64,????"})"}, "image 0");
   expect_note({R"({"bufferView":1})"}, "image 0: is no PNG");

@@ -191,13 +191,7 @@ class GltfReader {
         fail(fmt::format("image {} cannot be decoded", number));
       return {bytes.begin(), bytes.end()};
     }
-    if (!image.uri.empty()) {
-      const std::filesystem::path file = folder_ / percent_decoded(image.uri);
-      std::error_code ignored;
-      if (std::filesystem::exists(file, ignored) && !std::filesystem::is_regular_file(file, ignored))
-        fail(fmt::format("image {} is a folder, pipe or device", number));
-      return read_file(file);
-    }
+    if (!image.uri.empty()) return read_named_file(folder_ / percent_decoded(image.uri));
     const std::span<const unsigned char> bytes = view_bytes(image.view);
     return {bytes.begin(), bytes.end()};
   }

@@ -172,7 +172,7 @@ class ObjReader {
     }
     for (const auto& [path, numbers] : uses) {
       try {
-        const picture::Texture texture(read_file(path), path.string());
+        const picture::Texture texture(read_named_file(path), path.string());
         for (const std::size_t k : numbers) paint(uses_[k], end_of(k), texture);
       } catch (const Error& error) {
         soup_.notes.push_back(fmt::format("is left without the colours of a texture ({})", error.what()));
