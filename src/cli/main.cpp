@@ -11,8 +11,8 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
-#include <regex>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -150,10 +150,11 @@ std::string unexpected(const std::vector<std::string>& words, const CLI::App& ap
 
 /// CLI11 tells an option that is repeated by "At Most 1 required but received 2".
 std::string in_words(const std::string& problem) {
-  static const std::regex kRepeated("(.+): At Most 1 required but received ([0-9]+)");
-  std::smatch part;
-  if (!std::regex_match(problem, part, kRepeated)) return problem;
-  return fmt::format("{} is given {}", part[1].str(), part[2] == "2" ? "twice" : part[2].str() + " times");
+  constexpr std::string_view kRepeated = ": At Most 1 required but received ";
+  const std::size_t at = problem.rfind(kRepeated);
+  if (at == std::string::npos) return problem;
+  const std::string times = problem.substr(at + kRepeated.size());
+  return fmt::format("{} is given {}", problem.substr(0, at), times == "2" ? "twice" : times + " times");
 }
 
 /// What is wrong with the command line, as one line with the way out.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <regex>
 
 #include "cli/arguments.hpp"
 #include "cli/interrupt.hpp"
@@ -126,12 +125,15 @@ std::unique_ptr<outline::Matcher> make_matcher(OutlineMethod method,
 }
 
 PieceName piece_name(const std::string& given) {
-  static const std::regex kNumbered("(.+)#([1-9][0-9]{0,8})");
-  std::smatch parts;
+  constexpr std::size_t kMostDigits = 9;
+  const std::size_t at = given.rfind('#');
   std::error_code ignored;
-  if (std::filesystem::exists(given, ignored) || !std::regex_match(given, parts, kNumbered))
-    return {given, 1, false};
-  return {parts[1], std::stoul(parts[2]), true};
+  if (at == std::string::npos || at == 0 || std::filesystem::exists(given, ignored)) return {given, 1, false};
+  const std::string number = given.substr(at + 1);
+  const bool numbered = !number.empty() && number.size() <= kMostDigits && number[0] != '0' &&
+                        number.find_first_not_of("0123456789") == std::string::npos;
+  if (!numbered) return {given, 1, false};
+  return {given.substr(0, at), std::stoul(number), true};
 }
 
 outline::Piece load_piece(const PieceName& name, const outline::ExtractOptions& options, Console& console) {

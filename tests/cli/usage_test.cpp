@@ -35,6 +35,13 @@ TEST(CommandLine, ResultsThatADiskHadNoRoomForAreNoSuccess) {
   }
 }
 
+TEST(CommandLine, LongNamesOfPiecesAreToldAsAnyOthers) {
+  const Finished finished = run({"outline", "match", std::string(100000, 'x') + "#2", "b.csv"});
+  EXPECT_EQ(finished.exit_code, 1);
+  EXPECT_NE(finished.err.find("xxx: "), std::string::npos) << finished.err.substr(0, 200);
+  EXPECT_TRUE(is_one_line(finished.err)) << finished.err.substr(0, 200);
+}
+
 TEST(CommandLine, OutputsThatWouldTakeWhatIsReadAreRefused) {
   const TemporaryFolder folder;
   const std::string scan = folder / "scan.ply";
@@ -105,6 +112,7 @@ INSTANTIATE_TEST_SUITE_P(
         WrongUse{"JsonTwice",
                  {"match", "a.ply", "b.ply", "--json", "x", "--json", "y"},
                  "rejoin: --json is given twice; see rejoin match --help"},
+        WrongUse{"LongWord", {"match", "a.ply", "b.ply", "--seed", std::string(100000, 'x')}, "xxx"},
         WrongUse{"NoFragments", {"match"}, "A is required"},
         WrongUse{"OneFragment", {"match", "a.ply"}, "B is required"},
         WrongUse{"ThreeFragments",
