@@ -139,6 +139,21 @@ TEST_F(Malformed, PlyHeaders) {
   expect("i.ply", mac, Kind::Input, "lines of its PLY header end with CR alone");
 }
 
+TEST_F(Malformed, PlyElementsThatComeTwice) {
+  const std::string head = "ply\nformat ascii 1.0\nelement vertex 3\n" + kVertexHeader;
+  const std::string list = "property list uchar int vertex_indices\n";
+  const std::string normals = "property float nx\nproperty float ny\nproperty float nz\n";
+  const std::string points = "0 0 0\n1 0 0\n0 1 0\n";
+  expect("a.ply",
+         head + "element vertex 1\n" + kVertexHeader + normals + "element face 1\n" + list + "end_header\n" +
+             points + "0 0 1 0 0 1\n3 0 1 2\n",
+         Kind::Input, "PLY header line 7: a second element \"vertex\"; ");
+  expect("b.ply",
+         head + "element face 1\n" + list + "element face 1\n" + list + "end_header\n" + points +
+             "3 0 1 2\n3 0 2 1\n",
+         Kind::Input, "PLY header line 9: a second element \"face\"; ");
+}
+
 TEST_F(Malformed, NumbersThatAreNone) {
   expect("a.ply", ply("ascii", 3, 1) + "0 0 0\n1 zero 0\n0 1 0\n3 0 1 2\n", Kind::Input,
          "vertex 1: \"zero\" is not a number");

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <optional>
@@ -113,6 +114,10 @@ class HeaderReader {
     PlyElement element;
     std::string count;
     words >> element.name >> count;
+    const bool again = std::ranges::any_of(
+        header_.elements, [&](const PlyElement& earlier) { return earlier.name == element.name; });
+    if (again && (element.name == "vertex" || element.name == "face"))
+      fail("a second element \"" + element.name + "\"");
     const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), element.count);
     if (count.empty() || error != std::errc{} || end != count.data() + count.size()) {
       fail("the number of " + element.name + " elements is not a number");
