@@ -51,6 +51,10 @@ Rigid unchecked(const ordered_json& rows) {
   return pose;
 }
 
+bool turns(const glm::dmat3& matrix) {
+  return off_rotation(matrix) <= kLargestRounding && glm::determinant(matrix) > 0;
+}
+
 bool is_far(const Rigid& pose) {
   const glm::dvec3 shift = glm::abs(pose.translation);
   return std::max({shift.x, shift.y, shift.z}) > kLargestShift;
@@ -82,8 +86,7 @@ ordered_json to_json(const Rigid& pose) {
 std::optional<Rigid> rigid_from_json(const ordered_json& rows) {
   if (!is_matrix(rows)) return std::nullopt;
   Rigid pose = unchecked(rows);
-  const bool turns = off_rotation(pose.rotation) <= kLargestRounding && glm::determinant(pose.rotation) > 0;
-  if (!turns || is_far(pose)) return std::nullopt;
+  if (!turns(pose.rotation) || is_far(pose)) return std::nullopt;
   pose.rotation = orthonormal(pose.rotation);
   return pose;
 }
@@ -97,6 +100,10 @@ std::string why_no_rigid(const ordered_json& rows) {
   return fmt::format(
       "is no rotation: products of its columns are {:.2g} off, and {} is what rounding may leave", off,
       kLargestRounding);
+}
+
+bool is_no_rotation(const ordered_json& rows) {
+  return is_matrix(rows) && !is_far(unchecked(rows)) && !turns(unchecked(rows).rotation);
 }
 
 std::string read_json_text(const std::string& path, const std::string& mend) {

@@ -21,6 +21,9 @@ std::optional<Rigid> rigid_from_json(const nlohmann::ordered_json& rows);
 /// What to tell of a value that rigid_from_json() refuses, behind its name: "is no ..." or "shifts ..."; how far it is from a rotation where that is why.
 std::string why_no_rigid(const nlohmann::ordered_json& rows);
 
+/// Whether rigid_from_json() refuses a matrix because it scales, shears or mirrors.
+bool is_no_rotation(const nlohmann::ordered_json& rows);
+
 /// The text of a JSON file; whether it is JSON is for the parser to say.
 /// \param mend  what to do about one that is nested without end
 /// \throws IoError it cannot be read   \throws InputError it is nested deeper than kDeepestJson

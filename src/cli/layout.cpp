@@ -55,6 +55,7 @@ class LayoutReader {
                                       : "assemble the scans as they are, or leave --layout out");
   }
 
+  /// \param mend  of a matrix that is no pose
   void lay(const std::string& name, const ordered_json& rows, const char* mend) {
     if (std::find(names_.begin(), names_.end(), name) == names_.end())
       fail(fmt::format("lays \"{}\", which is no scan of the folder", name),
@@ -76,8 +77,12 @@ class LayoutReader {
     for (const pugi::xml_node& layer : project.child("MeshGroup").children("MLMesh")) {
       if (std::string(layer.attribute("visible").as_string("1")) == "0") continue;
       const std::string file = layer.attribute("filename").as_string();
-      lay(name_in(file), pose_of(layer), kNoScale);
+      lay(name_in(file), pose_of(layer, name_in(file)));
     }
+  }
+
+  void lay(const std::string& name, const ordered_json& rows) {
+    lay(name, rows, is_no_rotation(rows) ? kNoScale : "save the project again");
   }
 
   /// The fragment that a path leads to: the last of its parts that is one's name, for a scan may go by its folder's; else its last.
@@ -92,9 +97,14 @@ class LayoutReader {
   }
 
   /// A layer without a matrix was not moved.
-  static ordered_json pose_of(const pugi::xml_node& layer) {
+  ordered_json pose_of(const pugi::xml_node& layer, const std::string& name) const {
     const pugi::xml_node matrix = layer.child("MLMatrix44");
-    return matrix ? rows_of_numbers(matrix.text().as_string()) : to_json(Rigid{});
+    if (!matrix) return to_json(Rigid{});
+    const std::string text = matrix.text().as_string();
+    ordered_json rows = rows_of_numbers(text);
+    if (rows.is_discarded() && has_decimal_commas(text))
+      fail(fmt::format("the matrix of \"{}\" {}", name, kDecimalCommas), kPointsMend);
+    return rows;
   }
 
   void read_json() {

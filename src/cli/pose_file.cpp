@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "cli/json_values.hpp"
@@ -20,12 +21,12 @@ using nlohmann::ordered_json;
 
 constexpr const char* kPoseMend = "give the JSON of rejoin match, or four rows of four numbers";
 
-/// What spreadsheets and people add to a matrix, as blanks.
-std::string without_commas_and_comments(std::string text) {
+/// What spreadsheets and people add to a matrix, as blanks: comments, and any of `marks`.
+std::string without_comments_and(const char* marks, std::string text) {
   bool comment = false;
   for (char& c : text) {
     comment = c != '\n' && (comment || c == '#');
-    if (comment || c == ',') c = ' ';
+    if (comment || std::string_view(marks).find(c) != std::string_view::npos) c = ' ';
   }
   return text;
 }
@@ -39,7 +40,7 @@ std::string without_commas_and_comments(std::string text) {
 }  // namespace
 
 ordered_json rows_of_numbers(const std::string& text) {
-  std::istringstream in(without_commas_and_comments(text));
+  std::istringstream in(without_comments_and(",", text));
   ordered_json rows = ordered_json::array();
   double value = 0;
   for (int k = 0; k < 16 && in >> value; ++k) {
@@ -48,6 +49,20 @@ ordered_json rows_of_numbers(const std::string& text) {
   }
   const bool whole = rows.size() == 4 && rows.back().size() == 4 && in && (in >> std::ws).eof();
   return whole ? rows : ordered_json(ordered_json::value_t::discarded);
+}
+
+bool has_decimal_commas(const std::string& text) {
+  std::istringstream in(without_comments_and(";", text));
+  std::string points;
+  bool any = false;
+  for (std::string word; in >> word;) {
+    const std::size_t comma = word.find(',');
+    any = any || comma != std::string::npos;
+    if (comma != std::string::npos) word[comma] = '.';
+    if (word.find(',') != std::string::npos) return false;
+    points += word + ' ';
+  }
+  return any && !rows_of_numbers(points).is_discarded();
 }
 
 namespace {
@@ -101,7 +116,9 @@ bool is_of_swapped(const std::string& path, const ordered_json& json, const std:
 std::pair<Rigid, ordered_json> pose_and_json(const std::string& path) {
   const std::string text = read_json_text(path, kPoseMend);
   ordered_json json = ordered_json::parse(text, nullptr, false);
-  if (json.is_discarded()) json = rows_of_numbers(std::string(without_byte_order_mark(text)));
+  const std::string numbers(without_byte_order_mark(text));
+  if (json.is_discarded()) json = rows_of_numbers(numbers);
+  if (json.is_discarded() && has_decimal_commas(numbers)) throw InputError(path, kDecimalCommas, kPointsMend);
   if (json.is_discarded()) throw InputError(path, "is neither JSON nor a matrix of 4 x 4 numbers", kPoseMend);
   if (json.is_object() && json.value("schema", ordered_json()) == "rejoin.assembly/1") refuse_assembly(path);
   const bool named = json.is_object() && json.contains("pose");

@@ -21,4 +21,11 @@ Rigid read_pose(const std::string& path, const std::string& path_a, const std::s
 /// Sixteen numbers as four rows, as they are in files of poses; a discarded value if the text is anything else.
 nlohmann::ordered_json rows_of_numbers(const std::string& text);
 
+/// Whether a text would be rows_of_numbers() if its commas were points, each of its numbers having one at most.
+bool has_decimal_commas(const std::string& text);
+
+/// What to tell of such a text, and what to do about it.
+inline constexpr const char* kDecimalCommas = "has decimal commas";
+inline constexpr const char* kPointsMend = "write its numbers with points as decimal marks";
+
 }  // namespace rejoin::cli

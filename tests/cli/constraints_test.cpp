@@ -69,8 +69,23 @@ TEST(ReadPose, MayHaveCommasAndComments) {
   const TemporaryFolder folder;
   write_file(folder / "m.csv", "# B to A, 7\n0,-1,0,5\n1, 0, 0, 6  # mm\n0 0 1 7\n0,0,0,1");
   EXPECT_EQ(read_pose(folder / "m.csv")({1, 0, 0}), glm::dvec3(5, 7, 7));
-  write_file(folder / "m.csv", "0,5 0 0 1,5\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
-  EXPECT_THROW(read_pose(folder / "m.csv"), InputError) << "decimal commas";
+}
+
+TEST(ReadPose, WithDecimalCommasTellsToWritePoints) {
+  const TemporaryFolder folder;
+  for (const char* rows :
+       {"0,5 0 0 1,5\n0 1 0 0\n0 0 1 0\n0 0 0 1\n", "# B to A\n1;0;0;-1,5e2\n0;1;0;0\n0;0;1;0\n0;0;0;1,0\n",
+        "1,0 0,0 0,0 0,0\n0,0 1,0 0,0 0,0\n0,0 0,0 1,0 0,0\n0,0 0,0 0,0 1,0\n"}) {
+    write_file(folder / "m.txt", rows);
+    try {
+      read_pose(folder / "m.txt");
+      FAIL() << rows;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("m.txt: has decimal commas; write its numbers with points"),
+                std::string::npos)
+          << error.what();
+    }
+  }
 }
 
 TEST(ReadPose, MayBeginWithAByteOrderMark) {

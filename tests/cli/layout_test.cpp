@@ -118,9 +118,16 @@ TEST(ReadLayout, RefusesWhatIsNoneWithTheReason) {
        "the matrix of \"d.ply\" is no rotation: products of its columns are 3 off, and 0.002 is what "
        "rounding "
        "may leave; in MeshLab"},
-      {project(a + layer("d.ply", "-1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n")), "the matrix of \"d.ply\""},
+      {project(a + layer("d.ply", "-1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n")),
+       "the matrix of \"d.ply\" is no rotation, as it mirrors; in MeshLab"},
       {project(a + layer("d.ply", "nan 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n")), "the matrix of \"d.ply\""},
-      {project(a + layer("d.ply", "1 0 0 0\n")), "the matrix of \"d.ply\""},
+      {project(a + layer("d.ply", "1 0 0 0\n")),
+       "the matrix of \"d.ply\" is no 4 x 4 matrix of numbers whose last row is 0, 0, 0, 1; save the "
+       "project"},
+      {project(a + layer("d.ply", "1 0 0 1e14\n0 1 0 0\n0 0 1 0\n0 0 0 1\n")),
+       "the matrix of \"d.ply\" shifts by more than 1e13; save the project"},
+      {project(a + layer("d.ply", "1 0 0 0,5\n0 1 0 0\n0 0 1 0\n0 0 0 1\n")),
+       "the matrix of \"d.ply\" has decimal commas; write its numbers with points"},
       {R"({"poses": {"a.ply": )" + rows + R"(, "e.ply": )" + rows + "}}", "no fragment \"e.ply\""},
       {R"({"must_join": [["a.ply", "d.ply"]], "poses": {"a.ply": )" + rows + R"(, "d.ply": )" + rows + "}}",
        "says which pairs must or must not join"},
