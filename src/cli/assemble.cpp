@@ -133,6 +133,7 @@ class AssembleCommand final : public Command {
     }
     if (out_) {
       require_models_of_assembly(*out_);
+      require_apart_from_outputs("--json", json_, model_files(*out_));
       require_writable_folder(*out_);  // before --json, which may lie in it
       hold_.emplace(*out_);
     }

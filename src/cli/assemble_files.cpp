@@ -295,6 +295,12 @@ void require_models_of_assembly(const std::filesystem::path& folder) {
   }
 }
 
+std::vector<std::filesystem::path> model_files(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files(kModels.size());
+  std::ranges::transform(kModels, files.begin(), [&](const char* name) { return folder / name; });
+  return files;
+}
+
 std::vector<std::filesystem::path> make_models(const std::filesystem::path& folder,
                                                const AssembleInput& input, const assembly::Result& result) {
   std::vector<std::filesystem::path> files;

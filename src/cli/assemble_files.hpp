@@ -41,6 +41,9 @@ bool has_models(const std::filesystem::path& folder);
 std::vector<std::filesystem::path> make_models(const std::filesystem::path& folder,
                                                const AssembleInput& input, const assembly::Result& result);
 
+/// The files that make_models() may write right into the folder.
+std::vector<std::filesystem::path> model_files(const std::filesystem::path& folder);
+
 /// Removes what an earlier assembly wrote and would be taken for this one's: matrices of the pieces that its project places, and
 /// of nothing (no `made`) the models, too.
 /// \param made  by make_models(), on its way into the folder

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "cli/command.hpp"
 #include "cli/fragment.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/outputs.hpp"
 #include "cli/pose_file.hpp"
 #include "core/files.hpp"
 #include "report/compare_report.hpp"
@@ -46,7 +48,11 @@ class CompareCommand final : public Command {
 
   ExitCode run(Console& console, Context& context) override {
     require_two_files(path_a_, path_b_);
-    if (out_) require_writable_folder(*out_);  // first, for --json may lie in it
+    if (out_) {  // first, for --json may lie in it
+      require_apart_from_outputs("--json", json_,
+                                 {std::filesystem::path(*out_) / report::kComparisonPicture});
+      require_writable_folder(*out_);
+    }
     if (json_) require_writable_file(*json_);
     const Rigid pose = read_pose(pose_, path_a_, path_b_);
     match::Fragment a = load_fragment(path_a_, console, context, kind_of(solid_));

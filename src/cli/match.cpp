@@ -190,9 +190,11 @@ class MatchCommand final : public Command {
   void require_out() {
     std::vector<std::string> inputs = painted_;
     inputs.insert(inputs.end(), {path_a_, path_b_});
-    for (const std::filesystem::path& file : report::match_outputs(*out_)) {
+    const std::vector<std::filesystem::path> files = report::match_outputs(*out_);
+    for (const std::filesystem::path& file : files) {
       for (const std::string& input : inputs) require_apart("--out", file, input);
     }
+    require_apart_from_outputs("--json", json_, files);
     require_writable_folder(*out_);
     hold_.emplace(*out_);
   }

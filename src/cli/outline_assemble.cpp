@@ -193,8 +193,11 @@ class OutlineAssembleCommand final : public Command {
   }
 
  private:
-  /// \throws UsageError the user's own pictures among the pieces have names of what would be written
+  /// \throws UsageError the user's own pictures among the pieces, or --json, have names of what would be written
   void require_out() const {
+    if (json_ && outline::has_result_name(*json_))
+      require_apart_from_outputs("--json", json_,
+                                 {std::filesystem::path(*out_) / std::filesystem::path(*json_).filename()});
     require_writable_folder(*out_);
     std::error_code ignored;
     if (!std::filesystem::equivalent(*out_, folder_, ignored)) return;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <system_error>
+#include <vector>
 
 #include "cli/arguments.hpp"
 #include "cli/outline_command.hpp"
@@ -122,8 +123,10 @@ class OutlineMatchCommand final : public Command {
   }
 
   void require_out(const std::string& a, const std::string& b) const {
+    const std::vector<std::filesystem::path> pictures = report::outline_match_pictures(*out_);
+    require_apart_from_outputs("--json", json_, pictures);
     require_writable_folder(*out_);
-    for (const std::filesystem::path& file : report::outline_match_pictures(*out_)) {
+    for (const std::filesystem::path& file : pictures) {
       require_apart("--out", file, a);
       require_apart("--out", file, b);
       std::error_code ignored;

@@ -7,6 +7,7 @@
 #include <exception>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -107,6 +108,17 @@ void require_folder(const CLI::Option& option, const std::string& value) {
 void require_apart(const std::string& option, const fs::path& output, const fs::path& input) {
   std::error_code ignored;
   if (fs::is_regular_file(output, ignored) && is_same(output, input)) refuse(option, output);
+}
+
+void require_apart_from_outputs(const std::string& option, const std::optional<std::string>& output,
+                                const std::vector<fs::path>& files) {
+  const auto place = [](const fs::path& path) {
+    std::error_code ignored;
+    return fs::weakly_canonical(fs::absolute(path), ignored);
+  };
+  const bool any =
+      output && std::ranges::any_of(files, [&](const auto& file) { return place(file) == place(*output); });
+  if (any) throw UsageError(*output, "is written by --out, too", fmt::format("give {} another name", option));
 }
 
 OutputFolder::OutputFolder(const fs::path& path) : path_(path), exceptions_(std::uncaught_exceptions()) {

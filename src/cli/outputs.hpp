@@ -17,6 +17,13 @@ namespace rejoin::cli {
 void require_apart(const std::string& option, const std::filesystem::path& output,
                    const std::filesystem::path& input);
 
+/// For a file beside those that a command writes into a folder under names of its own.
+/// \param output  none: nothing is refused
+/// \param files   of the folder
+/// \throws UsageError the output is one of them
+void require_apart_from_outputs(const std::string& option, const std::optional<std::string>& output,
+                                const std::vector<std::filesystem::path>& files);
+
 /// A new or empty folder for outputs.  If an exception ends it, what was written goes, so that the same command can be given again, and
 /// nothing else that came to lie there meanwhile; a folder that was made for outputs goes again if it holds nothing.
 class OutputFolder {

@@ -251,13 +251,16 @@ std::vector<std::uint8_t> assembled_png(const std::vector<Piece>& pieces, const 
   return png_of(object_picture(members, view_of(members, options)));
 }
 
-std::optional<std::filesystem::path> foreign_result(const std::filesystem::path& folder) {
+bool has_result_name(const std::filesystem::path& file) {
   static const std::regex kResults(R"((object|joins)_[0-9]+\.png|pieces\.png|similarity\.png)");
+  return std::regex_match(file.filename().string(), kResults);
+}
+
+std::optional<std::filesystem::path> foreign_result(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> foreign;
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-    if (entry.is_regular_file(ignored) && std::regex_match(entry.path().filename().string(), kResults) &&
-        !is_marked_png_file(entry.path()))
+    if (entry.is_regular_file(ignored) && has_result_name(entry.path()) && !is_marked_png_file(entry.path()))
       foreign.push_back(entry.path());
   }
   if (foreign.empty()) return std::nullopt;

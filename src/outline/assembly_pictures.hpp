@@ -23,7 +23,10 @@ struct PictureOptions {
 std::vector<std::uint8_t> assembled_png(const std::vector<Piece>& pieces, const std::vector<Planar>& poses,
                                         const PictureOptions& options = {});
 
-/// The first file of a folder that has the name of a picture of an assembly and is none that this program wrote; nullopt: none has.
+/// Whether a file has the name of a picture of an assembly, of pieces or of their similarity.
+bool has_result_name(const std::filesystem::path& file);
+
+/// The first file of a folder that has_result_name() and is none that this program wrote; nullopt: none has.
 std::optional<std::filesystem::path> foreign_result(const std::filesystem::path& folder);
 
 /// Writes into a folder, each file whole or not at all:

@@ -161,7 +161,7 @@ std::vector<std::filesystem::path> write_compare_outputs(const std::filesystem::
                                                          const std::string& path_b) {
   require_writable_folder(folder);
   const auto name = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
-  std::vector<std::filesystem::path> files{folder / "compare.json", folder / "compare.png"};
+  std::vector<std::filesystem::path> files{folder / "compare.json", folder / kComparisonPicture};
   write_file(files[0], compare_json(comparison, path_a, path_b));
   write_png(files[1], draw_comparison(comparison, name(path_a), name(path_b)));
   return files;

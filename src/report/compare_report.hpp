@@ -10,6 +10,9 @@
 
 namespace rejoin::report {
 
+/// What write_compare_outputs() calls its picture.
+inline constexpr const char* kComparisonPicture = "compare.png";
+
 /// Lines of at most 100 columns: the errors at the pose, what their difference comes from, how they agree
 /// over the grid.
 std::string compare_table(const match::Comparison& comparison);

@@ -77,6 +77,30 @@ TEST_F(Outputs, JsonMayLieInTheFolderThatIsMadeForTheRest) {
   }
 }
 
+TEST_F(Outputs, JsonUnderTheNameOfAnotherOutputIsRefused) {
+  const std::string missing = folder / "missing.ply";
+  const std::string piece = folder / "piece.csv";
+  const std::string out = folder / "out";
+  const std::vector<std::pair<std::vector<std::string>, const char*>> cases{
+      {{"match", a, missing}, "/match.png"},
+      {{"match", a, missing}, "/./joined.ply"},
+      {{"compare", a, missing, "--pose", missing}, "/compare.png"},
+      {{"assemble", run_}, "/assembled.png"},
+      {{"outline", "match", piece, folder / "other.csv"}, "/joined.png"},
+      {{"outline", "assemble", folder / ""}, "/pieces.png"},
+      {{"outline", "assemble", folder / ""}, "/object_1.png"}};
+  for (const auto& [command, name] : cases) {
+    std::vector<std::string> arguments = command;
+    arguments.insert(arguments.end(), {"--out", out, "--json", out + name});
+    const Finished finished = run(arguments);
+    EXPECT_EQ(finished.exit_code, 2) << name << ": " << finished.err;
+    EXPECT_NE(finished.err.find(out + name + ": is written by --out, too"), std::string::npos)
+        << finished.err;
+    EXPECT_TRUE(is_one_line(finished.err)) << finished.err;
+    EXPECT_FALSE(fs::exists(out)) << name;
+  }
+}
+
 TEST_F(Outputs, FolderThatWasMadeForNothingGoesAgain) {
   const std::string open = folder / "open.obj";
   write_file(open, "v 0 0 0\nv 9 0 0\nv 0 9 0\nv 9 9 1\nv 5 20 1\nf 1 2 3\nf 2 4 3\nf 3 4 5\n");
