@@ -67,6 +67,19 @@ bool is_device(const fs::path& path) {
                     : "check the folder, its permissions and its space, or choose another place");
 }
 
+/// A file that its user has protected stays, though its folder would let another take its name.
+void refuse_protected(const fs::path& path) {
+  std::error_code ignored;
+  if (fs::is_regular_file(path, ignored) && access(path.c_str(), W_OK) != 0) refuse(path, errno);
+}
+
+/// Who may read and write a file may do so with what takes its place.
+void keep_mode(const fs::path& made, const fs::path& replaced) {
+  std::error_code absent;
+  const fs::perms mode = fs::status(replaced, absent).permissions();
+  if (fs::is_regular_file(replaced, absent)) fs::permissions(made, mode & fs::perms::all, absent);
+}
+
 /// Waits until the disk holds the file's content: a name given before may outlive a power cut without it, and a full disk
 /// behind a network is told by then only.  \return 0, or the system's reason
 int flush_to_disk(const fs::path& path) {
@@ -132,6 +145,7 @@ void require_writable_file(const fs::path& name) {
   }
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) refuse(path, EISDIR);
+  refuse_protected(path);
   const fs::path probe = beside(path);
   errno = 0;
   if (!std::ofstream(probe)) refuse(path, errno);
@@ -184,8 +198,10 @@ void write_file(const fs::path& name, const std::function<void(std::ostream&)>& 
   const fs::path path = target_of(name);
   const bool direct = is_device(path);
   const fs::path target = direct ? path : beside(path);
+  if (!direct) refuse_protected(path);
   errno = 0;
   std::ofstream file(target, std::ios::binary);
+  if (file && !direct) keep_mode(target, path);
   std::error_code problem;
   try {
     write(file);

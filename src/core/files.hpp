@@ -44,7 +44,8 @@ void require_writable_folder(const std::filesystem::path& folder);
 void require_empty_folder(const std::filesystem::path& folder);
 
 /// The file appears whole or not at all, whatever ends the program or the machine (written beside, flushed to the disk and
-/// renamed); a device or pipe is written to directly, and through a link what it leads to.  \throws IoError
+/// renamed), with the mode of one that it replaces; a device or pipe is written to directly, and through a link what it leads to.
+/// \throws IoError also if one that is there may not be written to
 void write_file(const std::filesystem::path& path, std::string_view content);
 
 /// The same for content that is too long for memory.

@@ -71,6 +71,18 @@ TEST_F(Files, WrittenFileHoldsTheBytesAndLeavesNothingBeside) {
   EXPECT_EQ(entries(), 1);
 }
 
+TEST_F(Files, FileThatIsWrittenAnewKeepsItsMode) {
+  for (const mode_t mode : {0640U, 0604U}) {
+    write_file(folder_ / "x", "old");
+    ASSERT_EQ(chmod((folder_ / "x").c_str(), mode), 0);
+    write_file(folder_ / "x", "new");
+    struct stat now = {};
+    ASSERT_EQ(stat((folder_ / "x").c_str(), &now), 0);
+    EXPECT_EQ(now.st_mode & 07777U, mode);
+    EXPECT_EQ(read(folder_ / "x"), "new");
+  }
+}
+
 TEST_F(Files, LinkStaysAndWhatItLeadsToIsWritten) {
   fs::create_directory(folder_ / "disk");
   write_file(folder_ / "disk" / "x", "old");
