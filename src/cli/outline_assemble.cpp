@@ -132,7 +132,7 @@ class OutlineAssembleCommand final : public Command {
         ->group("Output");
     add_outline_method(app, method_);
     add_calibration(app, calibration_);
-    add_dust(app, pictures_);
+    add_picture_options(app, pictures_);
     app.add_flag("--keep-rectangles", pictures_.keep_rectangles,
                  "keep rectangles beside other pieces, as of rulers")
         ->group("Input");

@@ -43,7 +43,7 @@ class OutlineCalibrateCommand final : public Command {
     app.add_option("--json", json_, "write the parameters (-: to stdout)")
         ->type_name("FILE")
         ->group("Output");
-    add_dust(app, pictures_);
+    add_picture_options(app, pictures_);
     add_number(app, "--scales", options_.scales, {1, 8}, "scales, 1 to 8 (5)")->group("Search");
     add_seed(app, options_.seed, "of the random numbers")->group("Search");
   }

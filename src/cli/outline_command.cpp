@@ -49,8 +49,10 @@ void add_calibration(CLI::App& app, std::optional<std::string>& calibration) {
       ->group("Input");
 }
 
-void add_dust(CLI::App& app, outline::ExtractOptions& options) {
+void add_picture_options(CLI::App& app, outline::ExtractOptions& options) {
   add_number(app, "--dust", options.dust, {0, 50, "PERCENT"}, "smallest piece, 0 to 50 % of the largest (2)")
+      ->group("Input");
+  app.add_flag("--keep-core", options.keep_core, "torn prints: keep the white rims along their tears")
       ->group("Input");
 }
 

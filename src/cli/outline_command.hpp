@@ -26,8 +26,8 @@ void add_outline_method(CLI::App& app, OutlineMethod& method);
 /// Adds --calibration, which goes with it.
 void add_calibration(CLI::App& app, std::optional<std::string>& calibration);
 
-/// Adds --dust.
-void add_dust(CLI::App& app, outline::ExtractOptions& options);
+/// Adds --dust and --keep-core.
+void add_picture_options(CLI::App& app, outline::ExtractOptions& options);
 
 /// Reads a calibration into the options, if one is given.
 /// \throws UsageError the method is not multiscale, which alone has such numbers

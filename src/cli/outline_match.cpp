@@ -61,7 +61,7 @@ class OutlineMatchCommand final : public Command {
     app.add_option("--out", out_, "write match.png and joined.png")->type_name("DIR")->group("Output");
     add_outline_method(app, method_);
     add_calibration(app, calibration_);
-    add_dust(app, pictures_);
+    add_picture_options(app, pictures_);
   }
 
   ExitCode run(Console& console, Context& context) override {
@@ -147,11 +147,12 @@ class OutlineMatchCommand final : public Command {
     if (!mesh::has_scan_name(path_a_) || !mesh::has_scan_name(path_b_))
       throw UsageError("A B", "one is a scan and the other is flat", "give two of a kind");
     const bool dust = pictures_.dust != outline::ExtractOptions{}.dust;
-    if (out_ || calibration_ || dust || method_ != OutlineMethod::Automatic) {
-      throw UsageError(out_           ? "--out"
-                       : calibration_ ? "--calibration"
-                       : dust         ? "--dust"
-                                      : "--method",
+    if (out_ || calibration_ || dust || pictures_.keep_core || method_ != OutlineMethod::Automatic) {
+      throw UsageError(out_                  ? "--out"
+                       : calibration_        ? "--calibration"
+                       : dust                ? "--dust"
+                       : pictures_.keep_core ? "--keep-core"
+                                             : "--method",
                        "is for flat pieces, and these are scans", "leave it out, or use rejoin match");
     }
     if (json_) require_writable_file(*json_);

@@ -11,6 +11,7 @@
 #include "core/words.hpp"
 #include "outline/detail/contour.hpp"
 #include "outline/detail/coverage.hpp"
+#include "outline/detail/torn_core.hpp"
 #include "outline/polygon.hpp"
 #include "picture/image_file.hpp"
 
@@ -296,6 +297,12 @@ Extraction extract(const std::string& path, const ExtractOptions& options) {
   Extraction result;
   cv::Mat image = picture::load_image(path, options.max_pixels, &result.notes);
   detail::Coverage coverage = detail::coverage(image, path);
+  const double core = options.keep_core ? 0.0 : detail::take_off_core(image, coverage.field);
+  if (core > 0.0) {
+    result.notes.push_back(fmt::format(
+        "the paper's white core shows along {:.0f} % of the border and is left out: --keep-core keeps it",
+        100.0 * core));
+  }
   std::vector<Polygon> all = detail::contours(coverage.field, 0.5F, kLeastPoints);
   const bool hard = detail::raster_of(all) > kStaircase;
   if (hard) {
