@@ -18,9 +18,8 @@ constexpr double kWorthHearing = -6.0;   // certainty from which others are aske
 constexpr double kTogether = 1.0;        // what two unsure joins need together above the limit for one
 constexpr double kTogetherOdds = -5.0;   // of each, at least
 constexpr double kTogetherWorth = -8.0;  // of both, for the third pair to be asked
-constexpr std::size_t kMostTwos =
-    500;                           // are heard at a time: where a pattern repeats there are tens of thousands
-constexpr double kNoLess = 500.0;  // more is as much
+constexpr std::size_t kMostTwos = 500;   // that say most without the third pair; others are not heard
+constexpr double kNoLess = 500.0;        // more is as much
 constexpr double kAlike =
     0.5;  // of what speaks for one place of two groups, for another, where patterns repeat
 constexpr double kElsewhere = 3.0;      // of the distances within which poses are the same

@@ -6,8 +6,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
-#include <regex>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "core/png_mark.hpp"
@@ -130,13 +130,24 @@ void lay(cv::Mat canvas, const cv::Mat& colours, const cv::Mat& mask) {
   }
 }
 
+/// Whether a file's name is that of an object's picture, or of one of joins.
+bool is_numbered(const std::string& name) {
+  constexpr std::string_view kEnd = ".png";
+  for (const std::string_view word : {"object_", "joins_"}) {
+    if (!name.starts_with(word) || !name.ends_with(kEnd) || name.size() <= word.size() + kEnd.size())
+      continue;
+    const std::string_view number(name.data() + word.size(), name.size() - word.size() - kEnd.size());
+    if (number.find_first_not_of("0123456789") == std::string_view::npos) return true;
+  }
+  return false;
+}
+
 /// Takes pictures of objects away that this program wrote and are none of these.
 void remove_others(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& files) {
-  static const std::regex kOurs(R"((object|joins)_[0-9]+\.png)");
   std::vector<std::filesystem::path> others;
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
-    if (std::regex_match(entry.path().filename().string(), kOurs) &&
+    if (is_numbered(entry.path().filename().string()) &&
         std::find(files.begin(), files.end(), folder / entry.path().filename()) == files.end() &&
         is_marked_png_file(entry.path()))
       others.push_back(entry.path());
@@ -252,8 +263,8 @@ std::vector<std::uint8_t> assembled_png(const std::vector<Piece>& pieces, const 
 }
 
 bool has_result_name(const std::filesystem::path& file) {
-  static const std::regex kResults(R"((object|joins)_[0-9]+\.png|pieces\.png|similarity\.png)");
-  return std::regex_match(file.filename().string(), kResults);
+  const std::string name = file.filename().string();
+  return name == "pieces.png" || name == "similarity.png" || is_numbered(name);
 }
 
 std::optional<std::filesystem::path> foreign_result(const std::filesystem::path& folder) {

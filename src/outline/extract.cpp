@@ -297,11 +297,10 @@ Extraction extract(const std::string& path, const ExtractOptions& options) {
   Extraction result;
   cv::Mat image = picture::load_image(path, options.max_pixels, &result.notes);
   detail::Coverage coverage = detail::coverage(image, path);
-  const double core = options.keep_core ? 0.0 : detail::take_off_core(image, coverage.field);
-  if (core > 0.0) {
-    result.notes.push_back(fmt::format(
-        "the paper's white core shows along {:.0f} % of the border and is left out: --keep-core keeps it",
-        100.0 * core));
+  const bool core = !options.keep_core && detail::take_off_core(image, coverage.field);
+  if (core) {
+    result.notes.emplace_back(
+        "the paper's white core shows along its tears and is left out: --keep-core keeps it");
   }
   std::vector<Polygon> all = detail::contours(coverage.field, 0.5F, kLeastPoints);
   const bool hard = detail::raster_of(all) > kStaircase;
@@ -319,7 +318,7 @@ Extraction extract(const std::string& path, const ExtractOptions& options) {
   drop_dust(loops, options.dust, result.notes);
   if (!coverage.distance.empty()) require_no_print(loops.outer, coverage.distance, path);
   judge_cut_pieces(loops.outer, image, result.notes);
-  if (!coverage.distance.empty()) doubt_background(loops.outer, coverage.distance, result.notes);
+  if (!coverage.distance.empty() && !core) doubt_background(loops.outer, coverage.distance, result.notes);
   result.pieces.reserve(loops.outer.size());
   for (Polygon& polygon : loops.outer) {
     Outline outline;

@@ -219,7 +219,9 @@ TEST_F(Outputs, MergeThatIsEndedLeavesNoPart) {
   held.exec("BEGIN IMMEDIATE");
   Running merge({"merge", run_, "--out", whole});
   const std::string part = whole + "/merge.part";
-  while (!fs::exists(part)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  for (int waited = 0; !fs::exists(part) && waited < 60000; ++waited)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  ASSERT_TRUE(fs::exists(part));
   merge.interrupt();
   EXPECT_EQ(merge.finish().exit_code, 130);
   EXPECT_FALSE(fs::exists(part));

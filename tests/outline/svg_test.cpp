@@ -154,7 +154,7 @@ TEST_F(Svg, CopiesAreCountedByWhatTheyDraw) {
   std::string copies;
   for (int k = 0; k < 2000; ++k)
     copies += fmt::format("<use href='#g' x='{}' y='{}'/>", 100 * (k % 50), k / 50 * 100);
-  expect_refusal("a.svg", with_hundred_squares(copies), "has more than 20000 copies of shapes");
+  expect_refusal("a.svg", with_hundred_squares(copies), "has more than 20000 copies of elements");
 }
 
 TEST_F(Svg, ShapesThatAreDrawnTwiceButForRoundingCountOnce) {

@@ -92,11 +92,44 @@ TEST(TornCore, IsNoneWhereTheFaceIsAsWhite) {
   EXPECT_TRUE(found.notes.empty());
 }
 
-TEST(TornCore, IsNoWhiteMargin) {
-  const Extraction found = extracted(paper(photograph, [](double) { return 30.0; }));
-  ASSERT_EQ(found.pieces.size(), 1U);
-  EXPECT_LT(off_circle(found.pieces[0], kFace + 30.0), 0.5);
-  EXPECT_TRUE(found.notes.empty());
+TEST(TornCore, IsNoEvenWhiteMargin) {
+  for (const double width : {8.0, 15.0, 30.0}) {
+    const Extraction found = extracted(paper(photograph, [&](double) { return width; }));
+    ASSERT_EQ(found.pieces.size(), 1U);
+    EXPECT_LT(off_circle(found.pieces[0], kFace + width), 0.5) << width;
+    EXPECT_TRUE(found.notes.empty()) << width;
+  }
+}
+
+/// The paper before a plain background.
+cv::Mat opaque(const cv::Mat& image, const cv::Vec3d& background) {
+  cv::Mat result(image.size(), CV_8UC3);
+  for (int y = 0; y < image.rows; ++y) {
+    for (int x = 0; x < image.cols; ++x) {
+      const auto& pixel = image.at<cv::Vec4b>(y, x);
+      const double covered = pixel[3] / 255.0;
+      for (int c = 0; c < 3; ++c)
+        result.at<cv::Vec3b>(y, x)[c] =
+            cv::saturate_cast<uchar>(covered * pixel[c] + (1.0 - covered) * 255.0 * background[c]);
+    }
+  }
+  return result;
+}
+
+TEST(TornCore, IsTakenOffBeforeABackgroundFromThePrintsAlone) {
+  const cv::Vec3d green(0.1, 0.95, 0.1);
+  const cv::Mat print = opaque(paper(photograph, torn(8.0)), green);
+  const cv::Mat sheet = opaque(paper([](const glm::dvec2&) { return kWhite; }, torn(0.0)), green);
+  cv::Mat both;
+  cv::hconcat(print, sheet, both);
+  const Extraction found = extracted(both);
+  ASSERT_EQ(found.pieces.size(), 2U);
+  const bool print_first = found.pieces[0].points[0].x < 400.0;
+  EXPECT_LT(off_circle(found.pieces[print_first ? 0 : 1], kFace), 1.5) << "colours mix at the border";
+  Outline white = found.pieces[print_first ? 1 : 0];
+  for (glm::dvec2& p : white.points) p.x -= 400.0;
+  EXPECT_LT(off_circle(white, kFace), 0.5);
+  ASSERT_EQ(found.notes.size(), 1U) << found.notes.back();
 }
 
 }  // namespace

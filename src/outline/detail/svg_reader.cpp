@@ -196,7 +196,7 @@ class SvgReader {
             const pugi::xml_node& use = {}) {
     if (depth > kDeepest) throw InputError(path_, "groups lie too deep in each other", kSvgMend);
     if (scope.copied && ++copies_ > kMostCopies)
-      throw InputError(path_, fmt::format("has more than {} copies of shapes", kMostCopies), kSvgMend);
+      throw InputError(path_, fmt::format("has more than {} copies of elements", kMostCopies), kSvgMend);
     look_for_unread(node, name, depth);
     enter(node, scope);
     if (name == "symbol" || (name == "svg" && depth > 0)) enter_drawing(node, use, scope);

@@ -16,15 +16,20 @@ namespace {
 // Pixels this deep in a piece are free of the background's colour and still core.
 constexpr float kRimFrom = 2.0F;
 constexpr float kRimTo = 4.0F;
-constexpr float kLeastBright = 0.7F;     // of the core, its darkest channel
+constexpr float kLeastBright = 0.8F;     // of the core, its darkest channel
 constexpr float kMostHue = 0.15F;        // its channels differ by less
 constexpr float kSame = 0.1F;            // colours that are less apart are one
 constexpr double kLeastRim = 0.04;       // of the rim's pixels are core
-constexpr double kMostInside = 0.25;     // of the rim's share, inside the pieces
+constexpr double kMostRim = 0.7;         // and not more: the other half of a tear has none
+constexpr double kMostInside = 0.25;     // of the rim's share, inside the piece
 constexpr double kMostWhite = 0.35;      // of what lies inside may have its colour anyhow: sky, not a page
-constexpr double kWidest = 0.1;          // of the root of the pieces' mean area
+constexpr double kWidest = 0.1;          // of the root of the piece's area
 constexpr double kWidestOfDepth = 0.25;  // of what a pixel can be inside at most
-constexpr int kBeside = 7;  // pixels across, in which the face's colour is looked for beside the core
+constexpr double kCornerReach = 1.5;     // discs within a right corner leave 0.41 of their radius of it free
+constexpr double kUneven =
+    0.3;  // and its depths' quartiles lie apart by this share of their median: a margin is even
+constexpr int kLeastPixels = 1000;  // of a piece that is looked at
+constexpr int kBeside = 7;          // pixels across, in which the face's colour is looked for beside the core
 constexpr float kLeastContrast = 0.12F;
 
 cv::Vec3f colour_at(const cv::Mat& image, int y, int x) {
@@ -72,75 +77,106 @@ cv::Mat depth_in(const cv::Mat& mask) {
   return depth;
 }
 
-/// What no disc that lies within the mask covers.  A white margin, a page and a bright sky hold discs, a rim of core does not.
+/// What discs that lie within the mask do not come near.  A white margin, a page and a bright sky hold discs, a rim of core does not.
 cv::Mat narrow_parts(const cv::Mat& mask, double width) {
   const double radius = 0.5 * width;
   const cv::Mat far = depth_in(mask) <= radius;  // from the middles of all such discs
-  return mask & (depth_in(far) > radius);
+  return mask & (depth_in(far) > kCornerReach * radius);
 }
 
-/// The parts of a mask that reach into another.
-cv::Mat parts_in(const cv::Mat& mask, const cv::Mat& other) {
+/// Those parts of a mask that are longer along the border than deep; nothing where all together are about as deep everywhere.
+/// \param depth  of all pixels in their piece
+cv::Mat core_among(const cv::Mat& mask, const cv::Mat& rim, const cv::Mat& depth) {
   cv::Mat labels;
-  const int parts = cv::connectedComponents(mask, labels, 8, CV_32S);
-  std::vector<bool> reaches(static_cast<std::size_t>(parts), false);
-  for (int y = 0; y < labels.rows; ++y)
-    for (int x = 0; x < labels.cols; ++x)
-      if (other.at<uchar>(y, x) != 0) reaches[static_cast<std::size_t>(labels.at<int>(y, x))] = true;
+  const auto parts = static_cast<std::size_t>(cv::connectedComponents(mask, labels, 8, CV_32S));
+  cv::Mat beside_face;
+  cv::dilate((depth > kRimFrom) & ~mask, beside_face, cv::Mat());
+  std::vector<float> deepest(parts, 0.0F);
+  std::vector<float> depths;
+  std::vector<std::size_t> in_rim(parts, 0);
+  for (int y = 0; y < labels.rows; ++y) {
+    for (int x = 0; x < labels.cols; ++x) {
+      if (mask.at<uchar>(y, x) == 0) continue;
+      const auto part = static_cast<std::size_t>(labels.at<int>(y, x));
+      const float deep = depth.at<float>(y, x);
+      deepest[part] = std::max(deepest[part], deep);
+      if (rim.at<uchar>(y, x) != 0) ++in_rim[part];
+      if (beside_face.at<uchar>(y, x) != 0 && deep > kRimFrom) depths.push_back(deep);
+    }
+  }
   cv::Mat result = cv::Mat::zeros(mask.size(), CV_8U);
+  const float spread = quantile(depths, 0.75) - quantile(depths, 0.25);
+  if (spread <= kUneven * median(depths)) return result;
+  const auto is_core = [&](std::size_t part) {
+    return part > 0 && static_cast<float>(in_rim[part]) > (kRimTo - kRimFrom) * deepest[part];
+  };
   for (int y = 0; y < labels.rows; ++y)
     for (int x = 0; x < labels.cols; ++x)
-      if (mask.at<uchar>(y, x) != 0 && reaches[static_cast<std::size_t>(labels.at<int>(y, x))])
-        result.at<uchar>(y, x) = 255;
+      if (is_core(static_cast<std::size_t>(labels.at<int>(y, x)))) result.at<uchar>(y, x) = 255;
   return result;
 }
 
-int count_of_pieces(const cv::Mat& piece) {
-  cv::Mat labels;
-  return cv::connectedComponents(piece, labels, 8, CV_32S) - 1;
-}
-
-}  // namespace
-
-double take_off_core(const cv::Mat& image, cv::Mat& field) {
-  const cv::Mat piece = field > 0.5F;
+/// \param piece  CV_8U, the pixels of one piece   \return whether core was taken off
+bool take_off_one(const cv::Mat& image, const cv::Mat& piece, cv::Mat field) {
   const cv::Mat depth = depth_in(piece);
   const cv::Mat rim = (depth > kRimFrom) & (depth < kRimTo);
   const std::optional<cv::Vec3f> core = colour_of_core(image, rim);
-  if (!core) return 0.0;
+  if (!core) return false;
   cv::Mat off(image.size(), CV_32F);
   for (int y = 0; y < image.rows; ++y)
     for (int x = 0; x < image.cols; ++x) off.at<float>(y, x) = distance(colour_at(image, y, x), *core);
 
   double deepest = 0.0;
   cv::minMaxLoc(depth, nullptr, &deepest);
-  const double area = static_cast<double>(cv::countNonZero(piece)) / count_of_pieces(piece);
-  const double widest = std::min(kWidest * std::sqrt(area), kWidestOfDepth * deepest);
+  const double widest =
+      std::min(kWidest * std::sqrt(static_cast<double>(cv::countNonZero(piece))), kWidestOfDepth * deepest);
   const cv::Mat alike = (off < kSame) & piece;
   const cv::Mat narrow = narrow_parts(alike, widest);
-  const double share = share_of(narrow, rim);
   const cv::Mat inside = depth > 2.0 * widest;
+  const double share = share_of(narrow, rim);
   const bool white_face = share_of(alike, inside) > kMostWhite;
-  if (share < kLeastRim || white_face || share_of(narrow, inside) > kMostInside * share) return 0.0;
+  if (share < kLeastRim || share > kMostRim || white_face || share_of(narrow, inside) > kMostInside * share)
+    return false;
 
   const cv::Mat mixed = (depth > 0.0F) & (depth <= kRimFrom) & (off < 2.0F * kSame);  // with the background
-  cv::Mat near = parts_in((narrow & (depth < widest)) | mixed, narrow & rim);
-  const cv::Mat neighbours = cv::getStructuringElement(cv::MORPH_RECT, {3, 3});
-  cv::dilate(near, near, neighbours);
-
+  cv::Mat taken = core_among((narrow & (depth < widest)) | mixed, rim, depth);
+  if (cv::countNonZero(taken) == 0) return false;
+  // Out to the border, where colours are mixed with the background's: what is nearer to core than to the face.
+  const cv::Mat face = (depth > kRimFrom) & ~taken;
+  const cv::Mat outer = (depth <= kRimFrom) & (depth_in(~taken) < depth_in(~face));
+  field.setTo(0.0, outer);
+  cv::dilate(taken, taken, cv::getStructuringElement(cv::MORPH_RECT, {3, 3}));
   // The face's border, half-way between the two colours.
   off.setTo(0.0, depth <= kRimFrom);
   cv::Mat contrast;
   cv::dilate(off, contrast, cv::getStructuringElement(cv::MORPH_RECT, {kBeside, kBeside}));
   for (int y = 0; y < field.rows; ++y) {
     for (int x = 0; x < field.cols; ++x) {
-      if (near.at<uchar>(y, x) == 0) continue;
+      if (taken.at<uchar>(y, x) == 0 || outer.at<uchar>(y, x) != 0) continue;
       const float of_face =
           distance(colour_at(image, y, x), *core) / std::max(contrast.at<float>(y, x), kLeastContrast);
       field.at<float>(y, x) = std::min(field.at<float>(y, x), of_face);
     }
   }
-  return share;
+  return true;
+}
+
+}  // namespace
+
+bool take_off_core(const cv::Mat& image, cv::Mat& field) {
+  cv::Mat labels;
+  cv::Mat boxes;
+  cv::Mat centres;
+  const int count = cv::connectedComponentsWithStats(field > 0.5F, labels, boxes, centres, 8, CV_32S);
+  bool some = false;
+  for (int k = 1; k < count; ++k) {
+    if (boxes.at<int>(k, cv::CC_STAT_AREA) < kLeastPixels) continue;
+    const cv::Rect box(boxes.at<int>(k, cv::CC_STAT_LEFT) - 1, boxes.at<int>(k, cv::CC_STAT_TOP) - 1,
+                       boxes.at<int>(k, cv::CC_STAT_WIDTH) + 2, boxes.at<int>(k, cv::CC_STAT_HEIGHT) + 2);
+    const cv::Rect within = box & cv::Rect({0, 0}, field.size());
+    some = take_off_one(image(within), labels(within) == k, field(within)) || some;
+  }
+  return some;
 }
 
 }  // namespace rejoin::outline::detail
