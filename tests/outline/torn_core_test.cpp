@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "outline/extract.hpp"
 #include "soft_disc.hpp"
@@ -69,6 +70,15 @@ TEST(TornCore, IsTakenOffToTheBorderOfTheFace) {
   EXPECT_LT(off_circle(found.pieces[0], kFace), 0.8) << "less than two pixels of it may stay";
   ASSERT_EQ(found.notes.size(), 1U);
   EXPECT_NE(found.notes[0].find("white core"), std::string::npos) << found.notes[0];
+}
+
+TEST(TornCore, IsTakenOffOfItsOwnPieceAlone) {
+  // A square beside the torn side, in the box around the print.
+  cv::Mat image = paper(photograph, torn(8.0));
+  cv::rectangle(image, cv::Rect(292, 72, 36, 36), cv::Scalar(60, 90, 140, 255), cv::FILLED);
+  const Extraction found = extracted(image);
+  ASSERT_EQ(found.pieces.size(), 2U);
+  EXPECT_NEAR(signed_area(found.pieces[1].points), 36.0 * 36.0, 40.0);
 }
 
 TEST(TornCore, StaysWhereTheUserSaysSo) {

@@ -26,8 +26,8 @@ constexpr double kMostWhite = 0.35;      // of what lies inside may have its col
 constexpr double kWidest = 0.1;          // of the root of the piece's area
 constexpr double kWidestOfDepth = 0.25;  // of what a pixel can be inside at most
 constexpr double kCornerReach = 1.5;     // discs within a right corner leave 0.41 of their radius of it free
-constexpr double kUneven =
-    0.3;  // and its depths' quartiles lie apart by this share of their median: a margin is even
+// Quartiles of the core's depth lie apart by this share of its median: a margin is even.
+constexpr double kUneven = 0.3;
 constexpr int kLeastPixels = 1000;  // of a piece that is looked at
 constexpr int kBeside = 7;          // pixels across, in which the face's colour is looked for beside the core
 constexpr float kLeastContrast = 0.12F;
@@ -143,7 +143,9 @@ bool take_off_one(const cv::Mat& image, const cv::Mat& piece, cv::Mat field) {
   if (cv::countNonZero(taken) == 0) return false;
   // Out to the border, where colours are mixed with the background's: what is nearer to core than to the face.
   const cv::Mat face = (depth > kRimFrom) & ~taken;
-  const cv::Mat outer = (depth <= kRimFrom) & (depth_in(~taken) < depth_in(~face));
+  cv::Mat beside;
+  cv::dilate(piece, beside, cv::getStructuringElement(cv::MORPH_RECT, {5, 5}));
+  const cv::Mat outer = beside & (depth <= kRimFrom) & (depth_in(~taken) < depth_in(~face));
   field.setTo(0.0, outer);
   cv::dilate(taken, taken, cv::getStructuringElement(cv::MORPH_RECT, {3, 3}));
   // The face's border, half-way between the two colours.
