@@ -27,7 +27,7 @@ constexpr double kWidest = 0.1;          // of the root of the piece's area
 constexpr double kWidestOfDepth = 0.25;  // of what a pixel can be inside at most
 constexpr double kCornerReach = 1.5;     // discs within a right corner leave 0.41 of their radius of it free
 // Quartiles of the core's depth lie apart by this share of its median: a margin is even.
-constexpr double kUneven = 0.3;
+constexpr double kUneven = 0.15;
 constexpr int kLeastPixels = 1000;  // of a piece that is looked at
 constexpr int kBeside = 7;          // pixels across, in which the face's colour is looked for beside the core
 constexpr float kLeastContrast = 0.12F;
