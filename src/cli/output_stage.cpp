@@ -25,19 +25,6 @@ fs::path made_anew(const fs::path& stage) {
   return stage;
 }
 
-void move_file(const fs::path& from, const fs::path& to) {
-  std::error_code problem;
-  if (fs::is_symlink(to, problem)) {  // who has a link there means what it leads to
-    write_file(to, read_file(from));
-    return;
-  }
-  fs::rename(from, to, problem);
-  if (problem) {
-    throw IoError(to.string(), fmt::format("cannot be written ({})", problem.message()),
-                  "check the folder and its permissions, or choose another place");
-  }
-}
-
 }  // namespace
 
 // Not closed by exec: what removes a stage after the process has ended (RemoveWhenKilled) holds the folder until it is done.
@@ -65,12 +52,12 @@ std::vector<fs::path> OutputStage::publish(const std::vector<fs::path>& files) c
     published.push_back(folder_ / file.lexically_relative(path_));
     std::error_code ignored;
     if (!fs::is_directory(file, ignored)) {
-      move_file(file, published.back());
+      replace_file(file, published.back());
       continue;
     }
     require_writable_folder(published.back());
     for (const fs::directory_entry& entry : fs::directory_iterator(file))
-      move_file(entry.path(), published.back() / entry.path().filename());
+      replace_file(entry.path(), published.back() / entry.path().filename());
   }
   return published;
 }

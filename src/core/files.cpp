@@ -223,4 +223,15 @@ void write_file(const fs::path& name, const std::function<void(std::ostream&)>& 
   refuse(path, reason);
 }
 
+void replace_file(const fs::path& made, const fs::path& name) {
+  const fs::path path = target_of(name);
+  if (is_device(path) || path != name) {  // who has a link there means what it leads to
+    write_file(path, read_file(made));
+    return;
+  }
+  refuse_protected(path);
+  keep_mode(made, path);
+  if (std::rename(made.c_str(), path.c_str()) != 0) refuse(path, errno);
+}
+
 }  // namespace rejoin

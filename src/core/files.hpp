@@ -52,4 +52,8 @@ void write_file(const std::filesystem::path& path, std::string_view content);
 /// \param write  what it throws goes on, and leaves no file
 void write_file(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
 
+/// Gives a file that was made in full elsewhere on this disk the name of one that may be there, as write_file() does.
+/// \throws IoError it cannot
+void replace_file(const std::filesystem::path& made, const std::filesystem::path& path);
+
 }  // namespace rejoin

@@ -97,6 +97,24 @@ TEST_F(Files, LinkStaysAndWhatItLeadsToIsWritten) {
   EXPECT_EQ(read(folder_ / "disk" / "x"), "made anew");
 }
 
+TEST_F(Files, ReplacedFileKeepsItsModeAndItsLink) {
+  fs::create_directory(folder_ / "disk");
+  write_file(folder_ / "disk" / "x", "old");
+  ASSERT_EQ(chmod((folder_ / "disk" / "x").c_str(), 0604), 0);
+  fs::create_symlink("disk/x", folder_ / "link");
+  write_file(folder_ / "made", "new");
+  replace_file(folder_ / "made", folder_ / "link");
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link"));
+  EXPECT_EQ(read(folder_ / "disk" / "x"), "new");
+  write_file(folder_ / "made", "newer");
+  replace_file(folder_ / "made", folder_ / "disk" / "x");
+  EXPECT_EQ(read(folder_ / "disk" / "x"), "newer");
+  struct stat now = {};
+  ASSERT_EQ(stat((folder_ / "disk" / "x").c_str(), &now), 0);
+  EXPECT_EQ(now.st_mode & 07777U, 0604U);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "disk"), {}), 1);
+}
+
 TEST_F(Files, OpenFileUnderTheSystemsNameIsWrittenToAndNotReplaced) {
   write_file(folder_ / "log", "");
   const int log = open((folder_ / "log").c_str(), O_RDWR | O_CLOEXEC);
