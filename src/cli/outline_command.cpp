@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 #include "cli/arguments.hpp"
 #include "cli/interrupt.hpp"
@@ -26,6 +27,27 @@ outline::PieceSet read_folder_or_end(const std::string& folder, const outline::E
                                      const Context& context) {
   const NothingToSave guard;
   return outline::read_folder(folder, options, context);
+}
+
+/// "FILE: TEXT" notes, those of one text as one: thirty pictures of one scanner have the same doubt.
+std::vector<std::string> told_together(const std::vector<std::string>& notes) {
+  constexpr std::size_t kMost = 3;  // told one by one
+  std::map<std::string, std::vector<std::string>> files;
+  for (const std::string& note : notes)
+    if (const std::size_t at = note.find(": "); at != std::string::npos)
+      files[note.substr(at)].push_back(note.substr(0, at));
+  std::vector<std::string> result;
+  for (const std::string& note : notes) {
+    const std::size_t at = note.find(": ");
+    const std::vector<std::string>* same = at == std::string::npos ? nullptr : &files[note.substr(at)];
+    if (!same || same->size() <= kMost) {
+      result.push_back(note);
+    } else if (same->front() == note.substr(0, at)) {
+      result.push_back(
+          fmt::format("{}, {} and {} more{}", (*same)[0], (*same)[1], same->size() - 2, note.substr(at)));
+    }
+  }
+  return result;
 }
 
 /// Those of six pieces.  More are seldom joined by one pair alone, and a search in full has more false candidates as well.
@@ -153,7 +175,7 @@ outline::PieceSet load_folder(const std::string& folder, const outline::ExtractO
                               Console& console, const Context& context) {
   outline::PieceSet set = read_folder_or_end(folder, options, context);
   console.end_progress();
-  for (const std::string& note : set.notes) console.warning(note);
+  for (const std::string& note : told_together(set.notes)) console.warning(note);
   for (const outline::LeftOut& file : set.unusable) console.warning(file.reason);
   for (const outline::LeftOut& piece : set.repeated) console.warning(piece.reason);
   return set;

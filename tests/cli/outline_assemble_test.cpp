@@ -35,6 +35,21 @@ TEST(OutlineAssemble, KeepsTwoShapesApartAndPlacesEveryPiece) {
   }
 }
 
+TEST(OutlineAssemble, ADoubtOfManyFilesIsToldOnce) {
+  const TemporaryFolder folder;
+  for (int k = 0; k < 5; ++k) {  // each runs out of its picture
+    picture(folder, "piece" + std::to_string(k) + ".png", [&](cv::Mat& image) {
+      cv::rectangle(image, cv::Rect(0, 0, 30 + 4 * k, 64), cv::Scalar(0), cv::FILLED);
+    });
+  }
+  const Finished done = run({"outline", "assemble", folder / "."});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  const std::string doubt = "touches the picture's border";
+  EXPECT_NE(done.err.find("piece0.png, "), std::string::npos) << done.err;
+  EXPECT_NE(done.err.find("piece1.png and 3 more: "), std::string::npos) << done.err;
+  EXPECT_EQ(done.err.find(doubt), done.err.rfind(doubt)) << done.err;
+}
+
 // With steps as long as a third of a join nothing tells true from false.
 TEST(OutlineAssemble, SearchesWithTheNumbersOfACalibration) {
   const BrokenShapes shapes;
