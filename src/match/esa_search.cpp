@@ -46,15 +46,15 @@ class FacetMeshes {
 
   const mesh::Mesh& of(int facet) {
     if (facet_of_face_.empty())
-      facet_of_face_ =
-          mesh::facet_of_faces(fragment_.facets, mesh::sample_of_faces(fragment_.facets, fragment_.surface));
+      facet_of_face_ = mesh::facet_of_faces(fragment_.facets,
+                                            mesh::sample_of_faces(fragment_.facets, open_surface(fragment_)));
     const auto [place, is_new] = meshes_.try_emplace(facet);
     if (is_new) {
       std::vector<std::uint32_t> faces;
       for (std::size_t f = 0; f < facet_of_face_.size(); ++f) {
         if (facet_of_face_[f] == facet) faces.push_back(static_cast<std::uint32_t>(f));
       }
-      place->second = mesh::simplify(mesh::submesh(fragment_.surface, faces), kMapFaces);
+      place->second = mesh::simplify(mesh::submesh(open_surface(fragment_), faces), kMapFaces);
     }
     return place->second;
   }

@@ -54,6 +54,8 @@ struct Fragment {
   std::string path;
   mesh::Mesh
       surface;  ///< triangles at full resolution: the scan after clean-up, or the surface of its cloud; without flaps (mesh/flaps.hpp)
+  std::optional<mesh::Mesh>
+      open;  ///< of a porous scan: what of `surface`, of a noisy one smoothed, lies in no pore (mesh/pores.hpp)
   mesh::Mesh
       coarse;  ///< a level of detail for depth maps: at most 40,000 faces; of a noisy scan smoothed, of a porous one without pores
   mesh::Segmentation facets;  ///< of `surface`, of a noisy scan smoothed, of a porous one without pores
@@ -73,6 +75,11 @@ struct Fragment {
   std::vector<StageTime>
       stages;  ///< surface (of a cloud), flaps, smooth (of a noisy scan), pores, coarse, facets; load where a file was read
 };
+
+/// What of a fragment others can touch.
+inline const mesh::Mesh& open_surface(const Fragment& fragment) {
+  return fragment.open ? *fragment.open : fragment.surface;
+}
 
 /// Whether both are sherds, thin pieces with a wall thickness of their own.
 inline bool both_thin(const Fragment& a, const Fragment& b) {

@@ -31,13 +31,13 @@ constexpr double kFromOneSide = 0.5;  // share of a surface without anything beh
 /// Faces of the breaks; their walls may have fewer.
 mesh::Mesh broken_surface(const Fragment& fragment) {
   mesh::Mesh broken;
-  broken.vertices = fragment.surface.vertices;
-  const std::vector<int> samples = mesh::sample_of_faces(fragment.facets, fragment.surface);
+  const mesh::Mesh& surface = open_surface(fragment);
+  broken.vertices = surface.vertices;
+  const std::vector<int> samples = mesh::sample_of_faces(fragment.facets, surface);
   for (std::size_t f = 0; f < samples.size(); ++f) {
     if (samples[f] < 0) continue;
     const auto sample = static_cast<std::size_t>(samples[f]);
-    if (fragment.facets.surface[sample] == mesh::Surface::Fracture)
-      broken.faces.push_back(fragment.surface.faces[f]);
+    if (fragment.facets.surface[sample] == mesh::Surface::Fracture) broken.faces.push_back(surface.faces[f]);
   }
   return broken;
 }
@@ -197,10 +197,13 @@ Fragment prepare(std::string path, mesh::Mesh scan, const Context& context, mesh
     fragment.noise_left = mesh::kNoiseLeft * fragment.noise;
     clock.lap("smooth");
   }
-  const std::optional<mesh::Open> open =
-      mesh::without_pores(noisy ? even : fragment.surface, fragment.diameter);
+  std::optional<mesh::Open> open = mesh::without_pores(noisy ? even : fragment.surface, fragment.diameter);
+  if (open) {
+    fragment.open = std::move(open->surface);
+    tell_pores(fragment, open->share);
+  }
   clock.lap("pores");
-  const mesh::Mesh& matched = open ? open->surface : noisy ? even : fragment.surface;
+  const mesh::Mesh& matched = noisy && !fragment.open ? even : open_surface(fragment);
   fragment.coarse = matched.faces.size() > kCoarseFaces ? mesh::simplify(matched, kCoarseFaces) : matched;
   fragment.middle = view_centre(fragment.coarse);
   clock.lap("coarse");
@@ -208,7 +211,6 @@ Fragment prepare(std::string path, mesh::Mesh scan, const Context& context, mesh
   fragment.waviness = waviness(fragment.facets, fragment.diameter, fragment.resolution);
   fragment.least_extent = mesh::least_extent(fragment.facets.samples.points);
   fragment.sample_of_face = mesh::sample_of_faces(fragment.facets, fragment.coarse);
-  if (open) tell_pores(fragment, open->share);
   doubt_coarse_walls(fragment);
   doubt_shapeless_points(fragment, noisy);
   doubt_scans_from_one_side(fragment, kind);

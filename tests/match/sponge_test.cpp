@@ -2,7 +2,9 @@
 
 #include "../mesh/sponge.hpp"
 #include "core/angle.hpp"
+#include "match/detail/joint_sides.hpp"
 #include "match/match.hpp"
+#include "mesh/point_index.hpp"
 #include "prepared_pair.hpp"
 
 namespace rejoin::match {
@@ -38,6 +40,20 @@ TEST(Sponge, BrokenAcrossItsCellsJoins) {
   EXPECT_LT(angle_between(off, Rigid{}), 1.0 * kDegree);
   EXPECT_LT(glm::length(off(glm::dvec3(0.0))), 0.2);
   EXPECT_EQ(result.verdict, Verdict::Join);
+}
+
+// A solid piece with samples far apart for its size is sampled more densely when it is judged.
+TEST(Sponge, NoSampleByWhichAJointIsJudgedLiesInAPore) {
+  const mesh::Mesh left = mesh::test::sponge_where([](const glm::dvec3& p) { return p.x - broken_at(p); });
+  const Fragment a = prepare("a", left, Context(), mesh::PieceKind::Solid);
+  ASSERT_TRUE(a.open);
+  const detail::JointSides sides(a, a);
+  ASSERT_GT(sides.a().body.points.size(), a.facets.samples.size());
+  const mesh::PointIndex open(a.facets.samples.points);
+  std::size_t farther = 0;
+  for (const glm::vec3& point : sides.a().body.points)
+    if (open.nearest(point)->second > a.facets.samples.spacing) ++farther;
+  EXPECT_LT(farther, sides.a().body.points.size() / 100);
 }
 
 }  // namespace

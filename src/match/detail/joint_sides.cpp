@@ -93,7 +93,7 @@ std::shared_ptr<const Side> side_of(const Fragment& fragment, const JointLengths
   if (fragment.facets.samples.spacing <= lengths.spacing)
     return std::make_shared<const Side>(side_of(fragment.facets, edge));
   return std::make_shared<const Side>(
-      side_of(mesh::denser(fragment.facets, fragment.surface, lengths.spacing), edge));
+      side_of(mesh::denser(fragment.facets, open_surface(fragment), lengths.spacing), edge));
 }
 
 bool is_in(const mesh::Box& box, const glm::vec3& p) {
