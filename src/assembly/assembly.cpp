@@ -125,7 +125,9 @@ class Assembler {
     std::vector<std::pair<std::size_t, std::size_t>> unmet;
     while (!context.cancelled() && add_unmet(unmet, context)) {
       grower_.want(unmet);
-      growth_ = best_growth(grower_, options_, context);
+      Growth other = best_growth(grower_, options_, context);
+      if (context.cancelled()) return;  // with what was put together before
+      growth_ = std::move(other);
     }
     if (!unmet.empty() && !context.cancelled()) tell_given_up(unasked, result);
   }

@@ -209,6 +209,9 @@ Grower::Question Grower::question(const State& state, std::vector<std::size_t> l
   }
   std::stable_sort(result.groups.begin(), result.groups.end(),
                    [](const auto& x, const auto& y) { return x.size() > y.size(); });
+  for (const std::size_t link : state.growth.used)
+    if (groups.count(state.growth.group[links_[link].a]) != 0) result.held_by.push_back(link);
+  std::sort(result.held_by.begin(), result.held_by.end());
   std::sort(links.begin(), links.end());
   result.links = std::move(links);
   return result;

@@ -80,13 +80,14 @@ class Grower {
     double certainty() const { return odds() + wish; }
   };
 
-  /// Links, and the members of the groups that they would put together: the largest, then those that move.
+  /// Links, the members of the groups that they would put together (the largest, then those that move), and the links that hold these.
   struct Question {
     std::vector<std::size_t> links;
     std::vector<std::vector<std::size_t>> groups;
+    std::vector<std::size_t> held_by;
 
     friend bool operator<(const Question& x, const Question& y) {
-      return std::tie(x.links, x.groups) < std::tie(y.links, y.groups);
+      return std::tie(x.links, x.groups, x.held_by) < std::tie(y.links, y.groups, y.held_by);
     }
   };
 

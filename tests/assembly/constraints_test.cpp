@@ -104,6 +104,46 @@ TEST(Constraints, PairsThatMustJoinDoSoHoweverLowTheScore) {
                                              fmt::format("{{{}}} and {{{}}}", corner.a, corner.b))});
 }
 
+// Where a false join held b by d, c lay in a; with b at its own place, what was heard there holds no longer.
+TEST(Constraints, WhatFitsOnceAPairMustJoinIsAskedAnew) {
+  const Box& box = ball();
+  const Corner corner = corner_of(box);
+  std::size_t d = 0;
+  while (d == corner.a || d == corner.b || d == corner.c || !box.touch(corner.a, d)) ++d;
+  ASSERT_LT(d, box.fragments.size());
+  const std::vector<Link> links{
+      box.true_link(corner.a, d, 0.9999999), box.false_link(d, corner.b, 0.997, 0.0, 2.0),
+      box.true_link(corner.a, corner.b, 0.2), box.true_link(corner.b, corner.c, 0.5)};
+  Options options;
+  options.constraints.must_join = {{corner.a, corner.b}};
+  const Result result = run(box, links, options);
+  for (const std::size_t piece : {corner.a, corner.b, corner.c, d})
+    EXPECT_GE(result.placements[piece].group, 0) << piece;
+  EXPECT_LT(box.worst_turn(result), 1.0);
+}
+
+TEST(Constraints, CancelledOverAWishKeepsWhatWasPutTogetherWithoutIt) {
+  const Box& box = ball();
+  const Corner row = row_of(box);
+  std::vector<Link> links = box.all_true(0.999);
+  links.push_back(box.false_link(row.a, row.c, 0.2, 0.0, 2.0));
+  Options options;
+  options.constraints.must_join = {{row.a, row.c}};
+  Context* context = nullptr;
+  int growths = 0;
+  double last = 1.0;
+  Context stopped([&](std::string_view stage, double part) {
+    if (stage != "grow") return;
+    if (part < last) ++growths;
+    last = part;
+    if (growths == 2) context->cancel();
+  });
+  context = &stopped;
+  const Result result = assemble(box.fragments, links, options, stopped);
+  EXPECT_TRUE(result.cancelled);
+  EXPECT_EQ(groups_of(result), std::set<int>{0});
+}
+
 TEST(Constraints, PairsThatMustJoinAndDoAnyhowTakeNoOtherPose) {
   const auto least = std::min_element(ball().contacts.begin(), ball().contacts.end(),
                                       [](const auto& x, const auto& y) { return x.area < y.area; });
