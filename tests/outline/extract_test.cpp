@@ -130,18 +130,35 @@ TEST(Extract, PrintAtTheBorderIsPartOfThePiece) {
   }
 }
 
-/// A disc on a plain background with a shadow, 30 % at its darkest, that reaches 14 pixels beyond it on one side.
-/// \param noise  deviation of every channel, of 1   \param behind  blue, green and red of the background, 0..1
-cv::Mat shadowed_disc(const cv::Vec3d& behind, double noise) {
+// Half of what paper and ink have on the mean lies inside of ink's own border, and outside of the paper's.
+TEST(Extract, InkThatCrossesTheBorderOfPaperOnADarkTableLeavesItWhereItIs) {
+  const Folder folder;
+  const cv::Mat cover = disc({128, 120});
+  cv::Mat image = painted(cover, {0.88, 0.92, 0.95}, {0.08, 0.09, 0.1}, 255, CV_8UC3);
+  const cv::Mat ink = painted(cover, {0.5, 0.3, 0.25}, {0.08, 0.09, 0.1}, 255, CV_8UC3);
+  for (int y = 0; y < image.rows; ++y)
+    if (y % 11 < 5) ink.row(y).copyTo(image.row(y));
+  cv::GaussianBlur(image, image, cv::Size(), 0.7);
+  cv::imwrite(folder.file("letter.png"), image);
+  const Extraction found = extract(folder.file("letter.png"));
+  ASSERT_EQ(found.pieces.size(), 1U);
+  expect_disc(found.pieces[0], 1.2);
+}
+
+/// A disc on a plain background with a shadow that reaches 14 pixels beyond it on one side.
+/// \param noise  deviation of every channel, of 1   \param behind  blue, green and red of the background, 0..1   \param piece  of the disc
+/// \param darkest  share of the light that the shadow takes
+cv::Mat shadowed_disc(const cv::Vec3d& behind, double noise, const cv::Vec3d& piece = {0.5, 0.4, 0.3},
+                      double darkest = 0.3) {
   const cv::Mat cover = disc({150, 130});
   cv::Mat shadow;
   cv::warpAffine(cover, shadow, cv::Matx23d(1, 0, 6, 0, 1, 4), cover.size());
   cv::GaussianBlur(shadow, shadow, cv::Size(), 5.0);
-  cv::Mat image = painted(cover, {0.5, 0.4, 0.3}, behind, 255, CV_8UC3);
+  cv::Mat image = painted(cover, piece, behind, 255, CV_8UC3);
   cv::RNG random(5);
   for (int y = 0; y < image.rows; ++y) {
     for (int x = 0; x < image.cols; ++x) {
-      const double light = 1.0 - 0.3 * shadow.at<float>(y, x) * (1.0 - cover.at<float>(y, x));
+      const double light = 1.0 - darkest * shadow.at<float>(y, x) * (1.0 - cover.at<float>(y, x));
       auto& pixel = image.at<cv::Vec3b>(y, x);
       for (int c = 0; c < 3; ++c)
         pixel[c] = cv::saturate_cast<uchar>(light * pixel[c] + 255.0 * random.gaussian(noise));
@@ -153,6 +170,14 @@ cv::Mat shadowed_disc(const cv::Vec3d& behind, double noise) {
 TEST(Extract, ShadowIsNoPartOfThePiece) {
   const Folder folder;
   cv::imwrite(folder.file("shadow.png"), shadowed_disc({0.9, 0.9, 0.9}, 0.0));
+  const Extraction found = extract(folder.file("shadow.png"));
+  ASSERT_EQ(found.pieces.size(), 1U);
+  expect_disc(found.pieces[0], 1.0);
+}
+
+TEST(Extract, ShadowOfPaperOnADarkTableIsNoPartOfIt) {
+  const Folder folder;
+  cv::imwrite(folder.file("shadow.png"), shadowed_disc({0.14, 0.17, 0.2}, 0.0, {0.85, 0.9, 0.92}, 0.7));
   const Extraction found = extract(folder.file("shadow.png"));
   ASSERT_EQ(found.pieces.size(), 1U);
   expect_disc(found.pieces[0], 1.0);

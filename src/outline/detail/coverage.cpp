@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "outline/detail/background.hpp"
 #include "outline/detail/foreground.hpp"
+#include "outline/detail/light_paper.hpp"
 #include "outline/detail/picture_edges.hpp"
 
 namespace rejoin::outline::detail {
@@ -97,18 +98,22 @@ cv::Mat contrast_beside(const cv::Mat& distance, const cv::Mat& mask, double lea
 }
 
 /// The border at half the contrast, print at the border taken for piece.
-cv::Mat field_of(const cv::Mat& distance, const cv::Mat& mask) {
+cv::Mat field_of(const cv::Mat& distance, const Foreground& found) {
+  const cv::Mat contrast = contrast_beside(distance, found.mask, kLeastContrast);
   cv::Mat share;
-  cv::divide(distance, contrast_beside(distance, mask, kLeastContrast), share);
+  cv::divide(distance, contrast, share);
   share = cv::min(share, 1.0);
+  const LightPaper paper = light_paper(found, share < kLeastShare);
+  if (!paper.lit.empty()) tell_print(distance, contrast, paper.lit, share);
   cv::Mat field = share.clone();
   cv::Mat scratch;
   cv::morphologyEx(share, scratch, cv::MORPH_CLOSE, square(kStroke));
   cv::Mat depth;
-  cv::distanceTransform(mask, depth, cv::DIST_L2, cv::DIST_MASK_3);
+  cv::distanceTransform(found.mask, depth, cv::DIST_L2, cv::DIST_MASK_3);
   scratch.copyTo(field, (depth > kBeyond) & (share < kLeastShare));
   field.setTo(1.0, depth > kBorderBand);
-  cv::dilate(mask, scratch, square(kInside));
+  if (!paper.shadow.empty()) cv::Mat(cv::min(share, kLeastShare)).copyTo(field, paper.shadow);
+  cv::dilate(found.mask, scratch, square(kInside));
   field.setTo(0.0, ~scratch);
   return field;
 }
@@ -137,7 +142,7 @@ Coverage coverage_from_background(cv::Mat& image, const std::string& path) {
   }
   Foreground found = foreground(background, image, classes.high_mean, classes.threshold);
   clear_frame(distance, found.mask);
-  Coverage result{field_of(distance, found.mask), distance, {}};
+  Coverage result{field_of(distance, found), distance, {}};
   result.field.setTo(0.0, found.shadow);
   result.distance.setTo(0.0, found.shadow);
   if (!edges.empty()) result.notes.push_back(edges);

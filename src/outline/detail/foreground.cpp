@@ -57,6 +57,9 @@ constexpr float kInk = 0.7F;
 constexpr int kSeam = 4;
 constexpr int kMouth = 11;
 
+/// What is lighter by less in every channel may be in a shadow: beside a border JPEG has the hues of both sides mixed.
+constexpr float kNoLighter = 0.03F;
+
 /// If taking shadows off leaves less than this share of the foreground, they were none.
 constexpr double kLeastLeft = 0.5;
 
@@ -154,21 +157,15 @@ cv::Mat shades(const Background& background, const cv::Mat& image, const cv::Mat
   return result;
 }
 
-/// The regions of `soft` that touch `bare`.
-cv::Mat touching(const cv::Mat& soft, const cv::Mat& bare) {
-  cv::Mat labels;
-  const int count = cv::connectedComponents(soft, labels, 4, CV_32S);
-  cv::Mat wide;
-  cv::dilate(bare, wide, cv::getStructuringElement(cv::MORPH_RECT, {5, 5}));
-  std::vector<char> touches(static_cast<std::size_t>(count), 0);
-  for (int y = 0; y < soft.rows; ++y)
-    for (int x = 0; x < soft.cols; ++x)
-      if (wide.at<uchar>(y, x) != 0) touches[static_cast<std::size_t>(labels.at<int>(y, x))] = 1;
-  cv::Mat result = cv::Mat::zeros(soft.size(), CV_8U);
-  for (int y = 0; y < soft.rows; ++y)
-    for (int x = 0; x < soft.cols; ++x)
-      if (soft.at<uchar>(y, x) != 0 && touches[static_cast<std::size_t>(labels.at<int>(y, x))] != 0)
-        result.at<uchar>(y, x) = 255;
+/// What has no more light than the background in any channel.
+cv::Mat darker(const Background& background, const cv::Mat& image) {
+  cv::Mat result = cv::Mat::zeros(image.size(), CV_8U);
+  for_rows(image, [&](int y) {
+    for (int x = 0; x < image.cols; ++x) {
+      const cv::Vec3f lighter = image.at<cv::Vec3f>(y, x) - background.colour(x, y);
+      if (std::max({lighter[0], lighter[1], lighter[2]}) < kNoLighter) result.at<uchar>(y, x) = 255;
+    }
+  });
   return result;
 }
 
@@ -223,6 +220,23 @@ cv::Mat seams_of_print(const Background& background, const cv::Mat& image, const
 
 }  // namespace
 
+cv::Mat touching(const cv::Mat& soft, const cv::Mat& bare) {
+  cv::Mat labels;
+  const int count = cv::connectedComponents(soft, labels, 4, CV_32S);
+  cv::Mat wide;
+  cv::dilate(bare, wide, cv::getStructuringElement(cv::MORPH_RECT, {5, 5}));
+  std::vector<char> touches(static_cast<std::size_t>(count), 0);
+  for (int y = 0; y < soft.rows; ++y)
+    for (int x = 0; x < soft.cols; ++x)
+      if (wide.at<uchar>(y, x) != 0) touches[static_cast<std::size_t>(labels.at<int>(y, x))] = 1;
+  cv::Mat result = cv::Mat::zeros(soft.size(), CV_8U);
+  for (int y = 0; y < soft.rows; ++y)
+    for (int x = 0; x < soft.cols; ++x)
+      if (soft.at<uchar>(y, x) != 0 && touches[static_cast<std::size_t>(labels.at<int>(y, x))] != 0)
+        result.at<uchar>(y, x) = 255;
+  return result;
+}
+
 cv::Mat distance_from(const Background& background, const cv::Mat& image) {
   const cv::Vec3f brightest = background.brightest();
   cv::Mat distance(image.size(), CV_32F);
@@ -255,9 +269,10 @@ Foreground foreground(const Background& background, const cv::Mat& image, double
   const cv::Mat all = ~bare;
   cv::Mat lit = all & ~shaded;
   lit |= seams_of_print(background, smooth, lit);
+  const cv::Mat dim = darker(background, smooth);
   if (!paper && cv::countNonZero(lit) < kLeastLeft * cv::countNonZero(all))
-    return {all, cv::Mat::zeros(all.size(), CV_8U)};
-  return {lit, shaded & ~lit};
+    return {all, cv::Mat::zeros(all.size(), CV_8U), dim};
+  return {lit, shaded & ~lit, dim};
 }
 
 void clear_frame(const cv::Mat& distance, cv::Mat& mask) {

@@ -11,9 +11,13 @@ namespace rejoin::outline::detail {
 /// \param image  CV_32FC3, 0..1   \return CV_32F
 cv::Mat distance_from(const Background& background, const cv::Mat& image);
 
+/// The regions of `soft` that touch `bare`; all CV_8U, 255 where they are.
+cv::Mat touching(const cv::Mat& soft, const cv::Mat& bare);
+
 struct Foreground {
   cv::Mat mask;    ///< CV_8U, 255 where a piece is, up to two pixels beyond its border
   cv::Mat shadow;  ///< CV_8U, 255 where background is in a shadow
+  cv::Mat dim;     ///< CV_8U, 255 where no channel has more light than the background's
 };
 
 /// Pixels that differ from the background by more than it differs from itself.  Print and paint are often as near to the
