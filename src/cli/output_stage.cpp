@@ -1,7 +1,6 @@
 #include "cli/output_stage.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/file.h>
 #include <unistd.h>
 
