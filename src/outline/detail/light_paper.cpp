@@ -30,23 +30,32 @@ constexpr int kLitNear = 6;
 /// Print is narrower, pixels.
 constexpr int kWidestPrint = 9;
 
-/// Those pieces of a mask that are lit for the most part.
-cv::Mat mostly_lit(const cv::Mat& mask, const cv::Mat& lit) {
+/// Those regions of a mask of whose pixels that count most have a vote.
+/// \param counted, votes  CV_8U, 255 where a pixel counts, where it has a vote
+cv::Mat regions_of_most(const cv::Mat& mask, const cv::Mat& counted, const cv::Mat& votes) {
   cv::Mat labels;
   const auto count = static_cast<std::size_t>(cv::connectedComponents(mask, labels, 8, CV_32S));
-  const auto piece_at = [&](int x, int y) { return static_cast<std::size_t>(labels.at<int>(y, x)); };
+  const auto region_at = [&](int x, int y) { return static_cast<std::size_t>(labels.at<int>(y, x)); };
   std::vector<std::int64_t> balance(count, 0);
   for (int y = 0; y < mask.rows; ++y)
-    for (int x = 0; x < mask.cols; ++x) balance[piece_at(x, y)] += lit.at<std::uint8_t>(y, x) != 0 ? 1 : -1;
+    for (int x = 0; x < mask.cols; ++x)
+      if (counted.at<std::uint8_t>(y, x) != 0)
+        balance[region_at(x, y)] += votes.at<std::uint8_t>(y, x) != 0 ? 1 : -1;
   cv::Mat result = mask.clone();
   for (int y = 0; y < mask.rows; ++y)
     for (int x = 0; x < mask.cols; ++x)
-      if (balance[piece_at(x, y)] < 0) result.at<std::uint8_t>(y, x) = 0;
+      if (balance[region_at(x, y)] <= 0) result.at<std::uint8_t>(y, x) = 0;
   return result;
 }
 
-/// From how deep in what is lit on half of it has this share of the contrast and more, pixels; nothing if that is deeper than borders lie.
-std::optional<double> depth_of(double level, const cv::Mat& share, const cv::Mat& depth) {
+/// How deep in what is lit the border lies, and the colour is the piece's own, usually, pixels.
+struct Depths {
+  double border;
+  double full;
+};
+
+/// \return nothing where a border is too blurred
+std::optional<Depths> usual_depths(const cv::Mat& share, const cv::Mat& depth) {
   constexpr float kStep = 0.5F;
   std::array<std::vector<float>, static_cast<std::size_t>(kOutermost / kStep)> shares;
   for (int y = 0; y < share.rows; ++y) {
@@ -56,8 +65,12 @@ std::optional<double> depth_of(double level, const cv::Mat& share, const cv::Mat
         shares[static_cast<std::size_t>(at / kStep)].push_back(share.at<float>(y, x));
     }
   }
-  for (std::size_t k = 0; k < shares.size(); ++k)
-    if (!shares[k].empty() && median(shares[k]) >= level) return kStep * static_cast<double>(k);
+  std::optional<double> border;
+  for (std::size_t k = 0; k < shares.size(); ++k) {
+    const double usual = shares[k].empty() ? 0.0 : median(shares[k]);
+    if (!border && usual >= 0.5) border = kStep * static_cast<double>(k);
+    if (usual >= kFull) return Depths{*border, kStep * static_cast<double>(k)};
+  }
   return {};
 }
 
@@ -84,46 +97,34 @@ cv::Mat distance_inside(const cv::Mat& distance, const cv::Mat& depth, float ins
   return soft;
 }
 
-/// Those regions of dim places that are faint for the most part where they are near what is lit: a shadow lies all along an edge.
-cv::Mat mostly_faint(const cv::Mat& dim, const cv::Mat& lit, const cv::Mat& faint) {
+/// What is as near to lit places as their light reaches in the contrast.
+cv::Mat beside(const cv::Mat& lit) {
   cv::Mat near;
   cv::dilate(lit, near, cv::getStructuringElement(cv::MORPH_RECT, {2 * kLitNear + 1, 2 * kLitNear + 1}));
-  cv::Mat labels;
-  const auto count = static_cast<std::size_t>(cv::connectedComponents(dim, labels, 8, CV_32S));
-  const auto region_at = [&](int x, int y) { return static_cast<std::size_t>(labels.at<int>(y, x)); };
-  std::vector<std::int64_t> balance(count, 0);
-  for (int y = 0; y < dim.rows; ++y)
-    for (int x = 0; x < dim.cols; ++x)
-      if (near.at<std::uint8_t>(y, x) != 0)
-        balance[region_at(x, y)] += faint.at<std::uint8_t>(y, x) != 0 ? 1 : -1;
-  cv::Mat result = dim.clone();
-  for (int y = 0; y < dim.rows; ++y)
-    for (int x = 0; x < dim.cols; ++x)
-      if (balance[region_at(x, y)] <= 0) result.at<std::uint8_t>(y, x) = 0;
-  return result;
+  return near;
 }
 
 }  // namespace
 
 LightPaper light_paper(const Foreground& found, const cv::Mat& faint) {
-  const cv::Mat pieces = mostly_lit(found.mask, ~found.dim);
+  const cv::Mat pieces = regions_of_most(found.mask, found.mask, ~found.dim);
   LightPaper result;
   if (cv::countNonZero(pieces) == 0) return result;
   result.lit = pieces & ~found.dim;
   cv::Mat closed;
   cv::morphologyEx(result.lit, closed, cv::MORPH_CLOSE,
                    cv::getStructuringElement(cv::MORPH_RECT, {kWidestPrint, kWidestPrint}));
-  result.shadow = mostly_faint(touching(pieces & ~closed, ~found.mask), result.lit, faint);
+  // A shadow lies all along an edge, and is faint beside it.
+  result.shadow = regions_of_most(touching(pieces & ~closed, ~found.mask), beside(result.lit), faint);
   return result;
 }
 
 void tell_print(const cv::Mat& distance, const cv::Mat& contrast, const cv::Mat& lit, cv::Mat& share) {
   cv::Mat depth;
   cv::distanceTransform(lit, depth, cv::DIST_L2, cv::DIST_MASK_5);
-  const std::optional<double> border = depth_of(0.5, share, depth);
-  const std::optional<double> full = depth_of(kFull, share, depth);
-  if (!border || !full) return;  // too blurred
-  const auto inside = static_cast<float>(std::max(*border + kPastBorder, *full + kPastBlur));
+  const std::optional<Depths> usual = usual_depths(share, depth);
+  if (!usual) return;
+  const auto inside = static_cast<float>(std::max(usual->border + kPastBorder, usual->full + kPastBlur));
   if (inside >= kOutermost) return;
   const cv::Mat own = distance_inside(distance, depth, inside);
   const cv::Mat fainter = (own > kLeastOfContrast * contrast) & (own < kLessByPrint * contrast);
