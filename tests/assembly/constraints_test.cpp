@@ -109,7 +109,9 @@ TEST(Constraints, WhatFitsOnceAPairMustJoinIsAskedAnew) {
   const Box& box = ball();
   const Corner corner = corner_of(box);
   std::size_t d = 0;
-  while (d == corner.a || d == corner.b || d == corner.c || !box.touch(corner.a, d)) ++d;
+  while (d < box.fragments.size() &&
+         (d == corner.a || d == corner.b || d == corner.c || !box.touch(corner.a, d)))
+    ++d;
   ASSERT_LT(d, box.fragments.size());
   const std::vector<Link> links{
       box.true_link(corner.a, d, 0.9999999), box.false_link(d, corner.b, 0.997, 0.0, 2.0),
