@@ -11,6 +11,7 @@
 #include "core/words.hpp"
 #include "outline/detail/contour.hpp"
 #include "outline/detail/coverage.hpp"
+#include "outline/detail/necks.hpp"
 #include "outline/detail/torn_core.hpp"
 #include "outline/polygon.hpp"
 #include "picture/image_file.hpp"
@@ -57,6 +58,8 @@ constexpr double kHardRaster = 0.29;
 /// What is left out as dust may be none if it covers this many pixels and this share of what would not be dust.
 constexpr double kLargestSpeck = 400.0;
 constexpr double kDoubtfulDust = 0.1;
+/// A piece that is so many times as wide as its neck may be two.
+constexpr double kDoubtfulNeck = 4.0;
 
 using Polygon = std::vector<glm::dvec2>;
 
@@ -274,6 +277,32 @@ void judge_cut_pieces(std::vector<Polygon>& outer, const cv::Mat& image, std::ve
   outer.erase(std::remove_if(outer.begin(), outer.end(), cut), outer.end());
 }
 
+/// Tells where pieces seem to touch, and parts them there if that is asked for.
+/// \param largest  area of the largest piece, pixels   \param field  Coverage::field
+/// \return whether some were parted
+bool part_touching(cv::Mat& field, double largest, const ExtractOptions& options,
+                   std::vector<std::string>& notes) {
+  constexpr std::size_t kNamed = 3;
+  std::vector<detail::Neck> necks =
+      detail::necks(field >= 0.5, std::max(kLargestSpeck, options.dust / 100.0 * largest));
+  if (!options.part_touching)
+    std::erase_if(necks, [](const detail::Neck& neck) { return neck.wider < kDoubtfulNeck; });
+  if (necks.empty()) return false;
+  std::string where;
+  for (std::size_t k = 0; k < std::min(necks.size(), kNamed); ++k) {
+    where += fmt::format("{}{:.0f} pixels wide at x {}, y {}", k > 0 ? "; " : "", necks[k].width,
+                         necks[k].place.x, necks[k].place.y);
+  }
+  if (necks.size() > kNamed) where += fmt::format("; {} more", necks.size() - kNamed);
+  notes.push_back(fmt::format(
+      "{} where pieces seem to touch ({}): {}", counted(necks.size(), "place"), where,
+      options.part_touching ? "they are parted there" : "they are read as one, --part-touching parts them"));
+  if (!options.part_touching) return false;
+  for (const detail::Neck& neck : necks)
+    for (const cv::Rect& cell : neck.cut) field(cell & cv::Rect({0, 0}, field.size())) = 0.0F;
+  return true;
+}
+
 /// Leaves out what is dust beside the largest piece, and tells if it may be none.
 /// \param percent  of the largest's area
 void drop_dust(Loops& loops, double percent, std::vector<std::string>& notes) {
@@ -314,6 +343,8 @@ Extraction extract(const std::string& path, const ExtractOptions& options) {
   if (loops.outer.empty()) {
     throw InputError(path, "no piece: what stands out is smaller than a few pixels", "scan with more pixels");
   }
+  if (part_touching(coverage.field, signed_area(loops.outer[0]), options, result.notes))
+    loops = sort_loops(detail::contours(coverage.field, 0.5F, kLeastPoints));
   std::move(coverage.notes.begin(), coverage.notes.end(), std::back_inserter(result.notes));
   drop_dust(loops, options.dust, result.notes);
   if (!coverage.distance.empty()) require_no_print(loops.outer, coverage.distance, path);

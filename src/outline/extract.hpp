@@ -14,6 +14,8 @@ struct ExtractOptions {
   bool keep_rectangles =
       false;               ///< in folders: those that lie beside other pieces in one picture, as rulers do
   bool keep_core = false;  ///< white rims along tears of printed paper stay, see detail::take_off_core()
+  bool part_touching =
+      false;  ///< pieces are parted where they hang together by a narrow neck, see detail::necks()
   std::size_t max_pixels = 120000000;  ///< larger pictures are refused before they are decoded
 };
 
