@@ -22,14 +22,25 @@ namespace rejoin::store {
 namespace fs = std::filesystem;
 namespace {
 
-/// Pairs of the attached run, its ids turned into ours by the fragments' names.  No failure takes the place of a result.
+/// Pairs of the attached run, by its ids, that ours has from another run, searched as far at least.
+constexpr const char* kKeepOurs = R"sql(
+CREATE TEMP TABLE kept (a INTEGER, b INTEGER, PRIMARY KEY (a, b)) WITHOUT ROWID;
+INSERT INTO kept
+  SELECT p.a, p.b FROM part.pair p
+  JOIN part.fragment u ON u.id = p.a JOIN main.fragment x ON x.name = u.name
+  JOIN part.fragment v ON v.id = p.b JOIN main.fragment y ON y.name = v.name
+  JOIN main.pair q ON q.a = x.id AND q.b = y.id
+  WHERE instr('failed apart sweep match', q.stage) >= instr('failed apart sweep match', p.stage)
+)sql";
+
+/// The others, ids turned into ours by the fragments' names.
 constexpr const char* kCopyPairs = R"sql(
 INSERT OR REPLACE INTO main.pair (a, b, stage, evidence, score, verdict, seconds, error, result)
   SELECT x.id, y.id, p.stage, p.evidence, p.score, p.verdict, p.seconds, p.error, p.result
   FROM part.pair p
   JOIN part.fragment u ON u.id = p.a JOIN main.fragment x ON x.name = u.name
   JOIN part.fragment v ON v.id = p.b JOIN main.fragment y ON y.name = v.name
-  WHERE p.stage <> 'failed' OR NOT EXISTS (SELECT 1 FROM main.pair q WHERE q.a = x.id AND q.b = y.id)
+  WHERE NOT EXISTS (SELECT 1 FROM kept k WHERE k.a = p.a AND k.b = p.b)
 )sql";
 
 /// Fragments of the attached run, by their ids there: ours of the same name, and the one that stands for it if it is a copy.
@@ -58,7 +69,8 @@ std::string copy_candidates(bool slides) {
   return fmt::format(
       "INSERT INTO main.candidate (a, b, {}) SELECT x.id, y.id, {} FROM part.candidate c "
       "JOIN part.fragment u ON u.id = c.a JOIN main.fragment x ON x.name = u.name "
-      "JOIN part.fragment v ON v.id = c.b JOIN main.fragment y ON y.name = v.name",
+      "JOIN part.fragment v ON v.id = c.b JOIN main.fragment y ON y.name = v.name "
+      "WHERE NOT EXISTS (SELECT 1 FROM kept k WHERE k.a = c.a AND k.b = c.b)",
       detail::candidate_columns(true), detail::candidate_columns(slides));
 }
 
@@ -187,8 +199,10 @@ void copy_pairs(SQLite::Database& database, const fs::path& folder) {
   attach.bind(1, detail::reading_address(detail::database_file(folder)));
   attach.exec();
   SQLite::Transaction transaction(database);
+  database.exec(kKeepOurs);
   database.exec(kCopyPairs);
   database.exec(copy_candidates(detail::has_slides(database, "part")));
+  database.exec("DROP TABLE kept");
   transaction.commit();
   database.exec("DETACH part");
 }

@@ -19,8 +19,8 @@ struct Merged {
   std::vector<std::string> gone;
 };
 
-/// Copies all fragments and pairs of the runs into one.  Pairs that several have are taken once, a result before a
-/// failure; fragments are numbered by name, as a single run
+/// Copies all fragments and pairs of the runs into one.  Pairs that several have are taken once: what was searched in full
+/// before what ended at the sweep, a failure last; fragments are numbered by name, as a single run
 /// over all of them numbers them.  The whole replaces what the output held, completely or not at all; who
 /// reads the output meanwhile goes on reading what it held.
 /// \param runs    folders of runs, at least one, made with the same parameters, each once; the output may be one of them unless it is

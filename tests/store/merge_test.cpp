@@ -139,6 +139,24 @@ TEST_F(Merge, ResultOfOneRunOutlivesTheFailureOfAnother) {
   EXPECT_EQ(store::Run::open(output()).candidates(1, 2).size(), 2U);
 }
 
+TEST_F(Merge, PairSearchedInFullByOneRunIsTakenInWhateverOrder) {
+  const fs::path full = shard("x", {"a", "b"}, 0.5);
+  const fs::path early = shard("y", {"a", "b"}, 0.25);
+  {
+    store::Run run = store::Run::write(early);
+    Pair pair = run.pairs().at(0);
+    pair.stage = Stage::Sweep;
+    run.save(pair, {Candidate(), Candidate(), Candidate()});
+  }
+  for (const std::vector<fs::path>& runs : {std::vector{full, early}, std::vector{early, full}}) {
+    merge(runs, output());
+    const store::Run whole = store::Run::open(output());
+    EXPECT_EQ(whole.pairs().at(0).stage, Stage::Match);
+    EXPECT_EQ(whole.pairs().at(0).score, 0.5);
+    EXPECT_EQ(whole.candidates(1, 2).size(), 2U);
+  }
+}
+
 TEST_F(Merge, WhatAnInterruptedOneLeftIsNoDatabase) {
   fs::create_directories(output());
   std::ofstream(output() / kFileName);
