@@ -22,6 +22,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
+constexpr double kToldLoss = 0.02;  // share of the object; less are splinters
+
 /// All as wide as the last of `count`, so that lists by name are in order.
 std::string file_name(std::size_t number, std::size_t count) {
   const std::size_t width = std::max<std::size_t>(2, std::to_string(count - 1).size());
@@ -44,6 +46,7 @@ ordered_json truth_json(const std::string& solid, const shatter::Options& option
   return {{"solid", std::filesystem::path(solid).filename().string()},
           {"unit", "as in the file"},
           {"diameter", shattered.diameter},
+          {"lost", shattered.lost},
           {"seed", options.seed},
           {"cracks", options.cracks},
           {"roughness", options.roughness},
@@ -96,6 +99,12 @@ class ShatterCommand final : public Command {
     if (shattered.cancelled) {
       console.warning("interrupted; nothing is written");
       return kInterrupted;
+    }
+    if (shattered.lost >= kToldLoss) {
+      console.warning(fmt::format(
+          "{}: {:.0f} % of it is lost, as not all pieces hang together and only the largest part of "
+          "each is written; give --cracks, another --seed or other --pieces, or a smaller --spacing",
+          path_, 100 * shattered.lost));
     }
     if (shattered.contacts.empty()) {
       console.warning(fmt::format(

@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/random.hpp"
+#include "mesh/point_index.hpp"
 #include "mesh/ray_scene.hpp"
 #include "shatter/chip_count.hpp"
 #include "shatter/cracks.hpp"
@@ -28,6 +29,7 @@ constexpr double kWarpAmplitude = 0.025;  // at roughness 1
 constexpr double kFar = 8.0;              // spacings
 constexpr double kRayStep = 1e-6;         // of the diameter, past a surface that a ray has met
 constexpr double kLeastContact = 20.0;    // squared spacings; less is no joint
+constexpr double kRoughChip = 1.3;        // radii of a chip that its roughness makes it reach, about
 
 /// Where a chip came off: a rough ball.
 struct Chip {
@@ -231,37 +233,95 @@ glm::dmat3 random_rotation(Random& random) {
   return tilt * axis_rotation({0, 0, 1}, random.uniform(0.0, 6.283185307179586));
 }
 
+/// Six times the volume that faces enclose with the origin.
+double six_volumes(const mesh::Mesh& mesh, const glm::uvec3& face) {
+  const glm::dvec3 a(mesh.vertices[face.x]);
+  return glm::dot(a, glm::cross(glm::dvec3(mesh.vertices[face.y]), glm::dvec3(mesh.vertices[face.z])));
+}
+
+struct LargestPart {
+  mesh::Mesh mesh;
+  double volume = 0;
+  double lost = 0;  ///< volume of the others
+};
+
 /// The connected part with the most faces.
-mesh::Mesh largest_part(const mesh::Mesh& mesh) {
+LargestPart largest_part(const mesh::Mesh& mesh) {
   Components components(mesh.vertices.size());
   for (const glm::uvec3& face : mesh.faces) {
     components.unite(face.x, face.y);
     components.unite(face.y, face.z);
   }
-  std::map<std::uint32_t, std::size_t> faces_of;
-  for (const glm::uvec3& face : mesh.faces) ++faces_of[components.of(face.x)];
-  const auto largest = std::max_element(faces_of.begin(), faces_of.end(),
-                                        [](const auto& a, const auto& b) { return a.second < b.second; });
+  std::map<std::uint32_t, std::pair<std::size_t, double>> parts;  // faces and six volumes
+  for (const glm::uvec3& face : mesh.faces) {
+    auto& [faces, volumes] = parts[components.of(face.x)];
+    ++faces;
+    volumes += six_volumes(mesh, face);
+  }
+  const auto largest = std::max_element(parts.begin(), parts.end(), [](const auto& a, const auto& b) {
+    return a.second.first < b.second.first;
+  });
+  LargestPart result;
+  for (auto part = parts.begin(); part != parts.end(); ++part)
+    (part == largest ? result.volume : result.lost) += std::max(0.0, part->second.second) / 6.0;
   std::vector<std::uint32_t> kept;
   for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
     if (components.of(mesh.faces[f].x) == largest->first) kept.push_back(f);
   }
-  return mesh::submesh(mesh, kept);
+  result.mesh = mesh::submesh(mesh, kept);
+  return result;
 }
 
-/// Area of the breaks towards every other piece, still in the object's frame.
-void add_contacts(const Breaker& breaker, const mesh::Mesh& piece, std::size_t k,
-                  std::map<std::pair<std::size_t, std::size_t>, double>& areas) {
+/// One piece's side of its break towards another.
+struct Side {
+  std::vector<glm::vec3> middles;  ///< of its faces, relative to the object's middle
+  std::vector<double> areas;
+};
+
+/// By the piece and the other one.
+using Sides = std::map<std::pair<std::size_t, std::size_t>, Side>;
+
+/// The sides of piece k, still in the object's frame.
+void add_sides(const Breaker& breaker, const mesh::Mesh& piece, std::size_t k, Sides& sides) {
   for (const glm::uvec3& face : piece.faces) {
     const glm::dvec3 a(piece.vertices[face.x]);
     const glm::dvec3 b(piece.vertices[face.y]);
     const glm::dvec3 c(piece.vertices[face.z]);
-    const int other = breaker.behind(piece.origin + (a + b + c) / 3.0, k);
+    const glm::dvec3 middle = (a + b + c) / 3.0;
+    const int other = breaker.behind(piece.origin + middle, k);
     if (other < 0) continue;
-    const auto neighbour = static_cast<std::size_t>(other);
-    areas[{std::min(k, neighbour), std::max(k, neighbour)}] +=
-        0.25 * glm::length(glm::cross(b - a, c - a));  // half from each side
+    Side& side = sides[{k, static_cast<std::size_t>(other)}];
+    side.middles.emplace_back(piece.origin + middle - breaker.middle());
+    side.areas.push_back(0.5 * glm::length(glm::cross(b - a, c - a)));
   }
+}
+
+/// Area of a side whose other side is still there, not in a part that was lost.
+double area_opposite(const Side& side, const Side& other, double reach) {
+  const mesh::PointIndex index(other.middles);
+  double area = 0.0;
+  for (std::size_t f = 0; f < side.middles.size(); ++f) {
+    if (index.nearest_within(side.middles[f], static_cast<float>(reach))) area += side.areas[f];
+  }
+  return area;
+}
+
+std::vector<Contact> contacts_of(const Sides& sides, double reach, double least) {
+  std::vector<Contact> contacts;
+  for (const auto& [pair, side] : sides) {
+    const auto other = sides.find({pair.second, pair.first});
+    if (pair.first > pair.second || other == sides.end()) continue;
+    const double area =
+        0.5 * (area_opposite(side, other->second, reach) + area_opposite(other->second, side, reach));
+    if (area >= least) contacts.push_back({pair.first, pair.second, area});
+  }
+  return contacts;
+}
+
+/// How far two sides of a break lie apart where most was worn off both, or chips came off.
+double widest_gap(const Options& options, double diameter) {
+  const double chip = options.chips > 0.0 ? options.chip_size : 0.0;
+  return diameter * (3.0 * options.spacing + 2.0 * (2.0 * options.erosion + kRoughChip * chip));
 }
 
 /// How far points of a scan lie off the surface, mesh units.
@@ -305,7 +365,9 @@ Shattered shatter(const std::string& name, const mesh::Mesh& object, const Optio
   if (context.cancelled()) return {{}, {}, 0.0, true};
   Shattered result;
   result.diameter = breaker.diameter();
-  std::map<std::pair<std::size_t, std::size_t>, double> areas;
+  Sides sides;
+  double volume = 0.0;
+  double lost = 0.0;
   for (std::size_t k = 0; k < static_cast<std::size_t>(options.pieces); ++k) {
     Random random(options.seed, 1000 + k);
     const Grid grid{random_rotation(random), breaker.middle(), 1.1 * breaker.diameter(), breaker.spacing()};
@@ -315,16 +377,17 @@ Shattered shatter(const std::string& name, const mesh::Mesh& object, const Optio
     if (whole.faces.empty())
       throw InputError(name, fmt::format("piece {} is smaller than the grid", k),
                        "ask for fewer pieces or a finer grid");
-    const mesh::Mesh piece = largest_part(whole);
-    add_contacts(breaker, piece, k, areas);
+    const LargestPart piece = largest_part(whole);
+    volume += piece.volume + piece.lost;
+    lost += piece.lost;
+    add_sides(breaker, piece.mesh, k, sides);
     const Deviation deviation = deviation_of(options, breaker.diameter(), options.seed + 1000 + k);
-    result.pieces.push_back(scanned(piece, deviation, breaker.diameter(), random));
+    result.pieces.push_back(scanned(piece.mesh, deviation, breaker.diameter(), random));
     context.report("shatter", static_cast<double>(k + 1) / options.pieces);
   }
-  const double least = kLeastContact * breaker.spacing() * breaker.spacing();
-  for (const auto& [pair, area] : areas) {
-    if (area >= least) result.contacts.push_back({pair.first, pair.second, area});
-  }
+  result.lost = volume > 0.0 ? lost / volume : 0.0;
+  result.contacts = contacts_of(sides, widest_gap(options, breaker.diameter()),
+                                kLeastContact * breaker.spacing() * breaker.spacing());
   return result;
 }
 

@@ -32,7 +32,7 @@ struct Piece {
   Rigid to_world;   ///< file coordinates -> the object's
 };
 
-/// Two pieces that share a break.
+/// Two pieces that share a break, as far as both still have their side of it.
 struct Contact {
   std::size_t a;
   std::size_t b;
@@ -43,6 +43,7 @@ struct Shattered {
   std::vector<Piece> pieces;
   std::vector<Contact> contacts;  ///< a < b, in ascending order; without those of a few faces
   double diameter = 0;            ///< of the object, mesh units
+  double lost = 0;                ///< share of its volume that hangs together with no piece's largest part
   bool cancelled = false;         ///< then nothing else is set
 };
 

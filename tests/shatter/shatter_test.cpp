@@ -12,7 +12,9 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "mesh/load.hpp"
+#include "mesh/point_index.hpp"
 #include "shatter/division.hpp"
+#include "shatter/surface_nets.hpp"
 
 namespace rejoin::shatter {
 namespace {
@@ -170,6 +172,62 @@ TEST(Shatter, CorrelatedNoiseHasItsDeviationAndIsSharedByNeighbours) {
   EXPECT_LT(steps_of(shared), 0.2);
   std::swap(options.noise, options.correlated);
   EXPECT_NEAR(steps_of(offsets_of(options)), 2.0, 0.2);
+}
+
+/// A sheet in five folds, 20 apart: pieces around sites take parts of several folds, which hang together nowhere.
+mesh::Mesh folded_sheet() {
+  const auto box = [](const glm::dvec3& p, const glm::dvec3& low, const glm::dvec3& high) {
+    const glm::dvec3 out = glm::max(low - p, p - high);
+    return std::max({out.x, out.y, out.z});
+  };
+  const Field field = [&](const glm::dvec3& p) {
+    double distance = 1e300;
+    for (int k = 0; k < 5; ++k) {
+      const double y = 20.0 * k - 40.0;
+      distance = std::min(distance, box(p, {-50, y - 4, -15}, {50, y + 4, 15}));
+      const double x = k % 2 == 0 ? 46.0 : -46.0;
+      if (k < 4) distance = std::min(distance, box(p, {x - 4, y, -15}, {x + 4, y + 20, 15}));
+    }
+    return distance;
+  };
+  return surface_nets(field, {glm::dmat3(1.0), glm::dvec3(0.0), 130.0, 1.5}, Context());
+}
+
+/// Area of a piece's faces that lie within reach of another piece, in the object's frame.
+double area_near(const Piece& piece, const Piece& other, double reach) {
+  const auto at_home = [](const Piece& of, const glm::vec3& point) {
+    return glm::vec3(of.to_world(of.scan.origin + glm::dvec3(point)));
+  };
+  std::vector<glm::vec3> points;
+  for (const glm::vec3& vertex : other.scan.vertices) points.push_back(at_home(other, vertex));
+  const mesh::PointIndex index(points);
+  double area = 0.0;
+  for (const glm::uvec3& face : piece.scan.faces) {
+    const glm::vec3 a = at_home(piece, piece.scan.vertices[face.x]);
+    const glm::vec3 b = at_home(piece, piece.scan.vertices[face.y]);
+    const glm::vec3 c = at_home(piece, piece.scan.vertices[face.z]);
+    if (index.nearest_within((a + b + c) / 3.0F, static_cast<float>(reach)))
+      area += 0.5 * static_cast<double>(glm::length(glm::cross(b - a, c - a)));
+  }
+  return area;
+}
+
+TEST(Shatter, WhatIsLostTouchesNothingAndIsTold) {
+  const mesh::Mesh sheet = folded_sheet();
+  double lost = 0.0;
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+    Options options = coarse(4);
+    options.spacing = 0.015;
+    options.seed = seed;
+    const Shattered broken = shatter("sheet", sheet, options, Context());
+    for (const Contact& contact : broken.contacts) {
+      const double seen = area_near(broken.pieces[contact.a], broken.pieces[contact.b], 4.0);
+      EXPECT_GT(seen, 0.5 * contact.area) << "seed " << seed << ", " << contact.a << " and " << contact.b;
+    }
+    EXPECT_NEAR(broken.lost, 1.0 - volume_of(broken) / mesh::test::volume(sheet), 0.1) << "seed " << seed;
+    lost = std::max(lost, broken.lost);
+  }
+  EXPECT_GT(lost, 0.1) << "or this tests nothing";
 }
 
 TEST(Shatter, AnOpenSurfaceIsRefused) {
