@@ -195,6 +195,7 @@ std::string assembly_json(const AssembleInput& input, const NamedConstraints& co
                   {"unplaced", unplaced},
                   {"groups", result.groups},
                   {"pairs_missing", input.remains.missing},
+                  {"results", input.results},
                   {"constraints", constraints_json(input, constraints, result)},
                   {"doubts", with_names(result.doubts, input.names)},
                   {"warnings", warnings_of(input, result)},

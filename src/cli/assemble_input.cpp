@@ -21,6 +21,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "match/verify.hpp"
+#include "store/results.hpp"
 #include "store/run.hpp"
 
 namespace rejoin::cli {
@@ -130,6 +131,7 @@ AssembleInput read_run(const fs::path& folder, Console& console, const Context& 
   const store::Run run = store::Run::open(folder);
   AssembleInput input;
   input.remains = store::remains(run);
+  input.results = store::results_hash(run);
   const std::vector<store::Fragment> fragments = run.fragments();
   input.warnings =
       batch::told(batch::kept_ones(batch::changed_scans(fragments), fragments, folder / batch::kCacheName),

@@ -25,6 +25,7 @@ struct AssembleInput {
   std::map<std::pair<std::size_t, std::size_t>, std::string>
       without_pose;        ///< compared pairs without links, the smaller number first, with the reason
   store::Remains remains;  ///< of the run
+  std::string results;     ///< store::results_hash() of the run
   std::vector<std::string> warnings;  ///< what else the user should know of the run
   std::vector<std::string> left_out;  ///< constraints that name fragments which cannot be used
   bool failed_now = false;            ///< scans or pairs failed while a folder was matched; told

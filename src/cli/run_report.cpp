@@ -18,6 +18,7 @@
 #include "mesh/load.hpp"
 #include "mesh/surface.hpp"
 #include "store/remains.hpp"
+#include "store/results.hpp"
 #include "store/run.hpp"
 
 namespace rejoin::cli {
@@ -44,10 +45,15 @@ constexpr const char* kStaleMend = "make it again with rejoin assemble";
 /// Takes poses, groups and joins over from the assembly.
 class AssemblyReader {
  public:
-  /// \param stored  of the report's fragments, in their order
+  /// \param stored   of the report's fragments, in their order
+  /// \param results  store::results_hash() of the run
   AssemblyReader(std::filesystem::path path, report::RunReport& report, const Numbers& numbers,
-                 const std::vector<store::Fragment>& stored)
-      : path_(std::move(path)), report_(report), numbers_(numbers), stored_(stored) {}
+                 const std::vector<store::Fragment>& stored, std::string results)
+      : path_(std::move(path)),
+        report_(report),
+        numbers_(numbers),
+        stored_(stored),
+        results_(std::move(results)) {}
 
   /// Reasons why fragments are left out hold only if the run has not changed since.
   /// \return what changed since it was made, for the user; empty: nothing
@@ -71,6 +77,8 @@ class AssemblyReader {
     const std::size_t later = missing - std::min(missing, report_.missing_pairs);
     if (later > 0) change_ = fmt::format("the assembly is older than {} of the pairs", later);
     look_for_changes(json["fragments"]);
+    if (change_.empty() && json.value("results", results_) != results_)
+      change_ = "the assembly was made before pairs were matched anew";
     for (const auto& [name, value] : json["fragments"].items()) place(name, value);
     const ordered_json joins = json.value("joins", ordered_json::array());
     for (const ordered_json& join : joins) use(join);
@@ -227,6 +235,7 @@ class AssemblyReader {
   report::RunReport& report_;
   const Numbers& numbers_;
   const std::vector<store::Fragment>& stored_;
+  std::string results_;
   std::string change_;              ///< of the run since the assembly was made
   std::set<std::size_t> replaced_;  ///< fragments whose scan is another since
 };
@@ -454,7 +463,8 @@ report::RunReport read_run(const std::filesystem::path& run, std::size_t listed,
   report.missing_pairs = remains.missing;
   std::string not_placed = "not assembled yet (rejoin assemble)";
   if (std::filesystem::exists(assembly)) {
-    const std::string change = AssemblyReader(assembly, report, numbers, fragments).read();
+    const std::string change =
+        AssemblyReader(assembly, report, numbers, fragments, store::results_hash(database)).read();
     not_placed = change.empty() ? "" : change + " (rejoin assemble)";
     if (!change.empty()) {
       report.warnings.push_back(change + "; make it again with rejoin assemble");

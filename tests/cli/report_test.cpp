@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "planted_files.hpp"
+#include "store/results.hpp"
 #include "store/run.hpp"
 
 namespace rejoin::cli::testing {
@@ -198,6 +199,29 @@ TEST(Report, TellsThatTheAssemblyIsOlderThanThePairsAndTakesBackItsReasons) {
   run.assemble(assembly.dump());
   const Finished replaced = testing::run({"report", run.folder, "--pictures", "0"});
   EXPECT_NE(replaced.err.find("made with another scan of a.ply"), std::string::npos) << replaced.err;
+}
+
+TEST(Report, TellsThatPairsWereMatchedAnewSinceTheAssembly) {
+  const PlantedRun run;
+  const json left_out = {{"pose", nullptr}, {"group", -1}, {"reason", "nothing fits it"}};
+  run.assemble(json{{"schema", "rejoin.assembly/1"},
+                    {"fragments", {{"a.ply", left_out}, {"b.ply", left_out}, {"gone.ply", left_out}}},
+                    {"results", store::results_hash(store::Run::open(run.folder))}}
+                   .dump());
+  const Finished fresh = testing::run({"report", run.folder, "--pictures", "0"});
+  ASSERT_EQ(fresh.exit_code, 0) << fresh.err;
+  EXPECT_EQ(fresh.err.find("matched anew"), std::string::npos) << fresh.err;
+  {
+    store::Run again = store::Run::write(run.folder);
+    store::Pair pair = again.pairs().at(0);
+    pair.score = 0.03;
+    pair.verdict = "no join";
+    again.save(pair, {});
+  }
+  const Finished stale = testing::run({"report", run.folder, "--pictures", "0"});
+  ASSERT_EQ(stale.exit_code, 0) << stale.err;
+  EXPECT_NE(stale.err.find("the assembly was made before pairs were matched anew"), std::string::npos)
+      << stale.err;
 }
 
 TEST(Report, ShowsNoScanAtThePlaceOfTheOneBeforeIt) {
