@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "assembly/pairs.hpp"
 #include "batch/inputs.hpp"
 #include "cli/arguments.hpp"
 #include "cli/assemble_constraints.hpp"
@@ -27,8 +28,20 @@
 namespace rejoin::cli {
 namespace {
 
-/// \param sure  score of a join that needs no witness
-std::string summary(const AssembleInput& input, const assembly::Result& result, double sure) {
+/// Why a join is used whose score says too little.
+const char* borne_by(const assembly::Join& join, const assembly::Options& options) {
+  if (join.found || join.score >= options.sure) return "";
+  const auto is_pinned = [&options](std::size_t k) {
+    return std::ranges::any_of(options.constraints.pinned,
+                               [k](const auto& numbered) { return numbered.first == k; });
+  };
+  if (is_pinned(join.a) && is_pinned(join.b)) return "; at the poses given";
+  return assembly::among(options.constraints.must_join, join.a, join.b) ? "; as you said"
+                                                                        : "; others bear it out";
+}
+
+std::string summary(const AssembleInput& input, const assembly::Result& result,
+                    const assembly::Options& options) {
   std::size_t placed = 0;
   for (const assembly::Placement& placement : result.placements) placed += placement.group >= 0 ? 1 : 0;
   std::string text = fmt::format(
@@ -37,7 +50,7 @@ std::string summary(const AssembleInput& input, const assembly::Result& result, 
   for (const assembly::Join& join : result.joins) {
     text += fmt::format("  {} + {}: {} {:.3f}, contact {:.4g}{}\n", input.names[join.a], input.names[join.b],
                         join.found ? "found by contact, score" : "score", join.score, join.contact_area,
-                        join.found || join.score >= sure ? "" : "; others bear it out");
+                        borne_by(join, options));
   }
   for (std::size_t k = 0; k < input.names.size(); ++k) {
     if (result.placements[k].group >= 0) continue;
@@ -103,7 +116,7 @@ class AssembleCommand final : public Command {
     console.end_progress();
     for (const std::string& warning : warnings_of(input, result)) console.warning(warning);
     if (result.cancelled) console.warning("interrupted; what follows is less than possible");
-    console.result(summary(input, result, options_.sure));
+    console.result(summary(input, result, options_));
     if (out_ && !result.cancelled) {
       write_all(files, input, result, console);
     } else {

@@ -423,6 +423,17 @@ TEST_F(Batch, PairThatMustJoinButHasNoPoseIsToldWithTheReason) {
   }
 }
 
+TEST_F(Batch, JoinOfALowScoreThatTheUserAsksForIsToldAsTheUsers) {
+  fs::copy(*home_ / "undisturbed", run_, fs::copy_options::recursive);
+  write_file(folder_ / "wishes.json", R"({"must_join": [["b7.ply", "a7.ply"]]})");
+  SQLite::Database(run_ + "/run.sqlite", SQLite::OPEN_READWRITE).exec("UPDATE candidate SET score = 0.1");
+  const Finished wished = run({"assemble", run_, "--constraints", folder_ / "wishes.json"});
+  ASSERT_EQ(wished.exit_code, 0) << wished.err;
+  EXPECT_NE(wished.out.find("a7.ply + b7.ply: score 0.100"), std::string::npos) << wished.out;
+  EXPECT_NE(wished.out.find("; as you said\n"), std::string::npos) << wished.out;
+  EXPECT_EQ(wished.out.find("others bear it out"), std::string::npos) << wished.out;
+}
+
 TEST_F(Batch, JsonLinesAreValidAndCountUp) {
   const Finished finished = run({"batch", scans(), "--out", run_, "--json"});
   ASSERT_EQ(finished.exit_code, 0);
