@@ -117,6 +117,8 @@ Outcome prepare_one(const store::Fragment& fragment, const fs::path& cache, mesh
   } catch (const Error& error) {
     record.state = store::FragmentState::Bad;
     record.error = error.what();
+    // Whatever it held before: so that it is tried again as soon as it can be read.
+    if (hash_if_readable(fragment.path) == store::kUnreadable) record.hash = store::kUnreadable;
   } catch (const std::bad_alloc&) {
     record.state = store::FragmentState::Bad;
     record.error = fragment.path + ": out of memory; use a smaller scan";

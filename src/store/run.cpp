@@ -368,8 +368,9 @@ void Run::forget_failures() {
 void Run::save(const Fragment& fragment) {
   detail::guarded(access_->path, [&] {
     auto row = access_->query(
-        "UPDATE fragment SET faces = ?, diameter = ?, state = ?, error = ?, spacing = ?, noise = ?, wall = ? "
-        "WHERE id = ?");
+        "UPDATE fragment SET faces = ?, diameter = ?, state = ?, error = ?, spacing = ?, noise = ?, wall = "
+        "?, "
+        "hash = ? WHERE id = ?");
     row.bind(1, fragment.faces);
     row.bind(2, fragment.diameter);
     row.bind(3, detail::name_of(fragment.state));
@@ -377,7 +378,8 @@ void Run::save(const Fragment& fragment) {
     row.bind(5, fragment.spacing);
     row.bind(6, fragment.noise);
     row.bind(7, fragment.wall);
-    row.bind(8, fragment.id);
+    row.bind(8, fragment.hash);
+    row.bind(9, fragment.id);
     row.exec();
   });
 }

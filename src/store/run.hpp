@@ -96,7 +96,7 @@ class Run {
   /// Removes the pairs that failed, and sets the fragments that are bad to waiting, so that they are tried again.
   void forget_failures();
 
-  /// Sets faces, lengths, state and error of the fragment of this id.
+  /// Sets hash, faces, lengths, state and error of the fragment of this id.
   void save(const Fragment& fragment);
 
   /// Adds or replaces a pair with its candidates; ranks are given by their order.

@@ -66,5 +66,15 @@ TEST_F(Shelved, ScanWithAnotherContentIsRefusedWhereNothingIsKept) {
   EXPECT_THROW(faces(), InputError);
 }
 
+TEST_F(Shelved, ScanThatCannotBeReadNowIsKnownByNoContentSoThatItIsTriedAgain) {
+  fs::remove(scan_);
+  store::Fragment bad;
+  Shelf(cache_, mesh::PieceKind::Found).hold({fragment_}, Context{}, [&](const auto& told, const auto&) {
+    bad = told;
+  });
+  EXPECT_EQ(bad.state, store::FragmentState::Bad);
+  EXPECT_EQ(bad.hash, store::kUnreadable);
+}
+
 }  // namespace
 }  // namespace rejoin::batch
