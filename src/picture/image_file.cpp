@@ -41,7 +41,8 @@ struct TiffDirectory {
   ImageHeader header;
   bool is_page = true;  ///< not a small version or a mask of another
   int orientation = 1;
-  std::size_t next = 0;  ///< place of the next directory, 0: none
+  std::size_t orientation_at = 0;  ///< place of its value, two bytes; 0: not told
+  std::size_t next = 0;            ///< place of the next directory, 0: none
 };
 
 /// Tags: 254 kind (bit 0 small version, bit 2 mask), 256 width, 257 height, 258 bits, 274 orientation, 277 samples, 282 dots across a unit, 296 the unit (2 inch, 3 cm).
@@ -66,7 +67,10 @@ std::optional<TiffDirectory> tiff_directory(std::string_view bytes, std::size_t 
       const auto there = number_at(bytes, entry + 8, 4, big);
       header.bits = there ? number_at(bytes, *there, 2, big).value_or(0) : 0;
     }
-    if (*tag == 274) directory.orientation = static_cast<int>(std::min<std::size_t>(*value, 9));
+    if (*tag == 274) {
+      directory.orientation = static_cast<int>(std::min<std::size_t>(*value, 9));
+      directory.orientation_at = type == 3U ? entry + 8 : 0;
+    }
     if (*tag == 277) header.samples = *value;
     if (*tag == 282) header.dots_per_inch = tiff_ratio(bytes, *value, big);
     if (*tag == 296) to_inch = *value == 3 ? kCentimetresAnInch : *value == 2 ? 1.0 : 0.0;
@@ -189,6 +193,7 @@ std::optional<ImageHeader> tiff_header(std::string_view bytes) {
   const auto first = first_directory(bytes);
   if (!first || first->header.width == 0 || first->header.height == 0) return std::nullopt;
   ImageHeader header = first->header;
+  header.orientation = first->orientation_at > 0 ? first->orientation : 1;
   for (auto page = first; page && page->next != 0 && header.pages < kMostPages;) {
     page = tiff_directory(bytes, page->next, big);
     if (page && page->is_page) ++header.pages;
@@ -205,6 +210,17 @@ void require_usual_samples(const ImageHeader& header, const std::string& path) {
   }
   if (header.samples == 2)
     throw InputError(path, "is a grey TIFF with transparency, which would be lost", "save it as PNG");
+}
+
+/// A TIFF that says of itself that it is upright: OpenCV turns a picture as it is told, but of one in tiles each tile by itself, and
+/// leaves the tiles where they are.
+std::string without_orientation(std::string bytes) {
+  const auto first = first_directory(bytes);
+  if (!first || first->orientation_at == 0) return bytes;
+  const bool big = bytes.starts_with('M');
+  bytes[first->orientation_at] = big ? '\0' : '\1';
+  bytes[first->orientation_at + 1] = big ? '\1' : '\0';
+  return bytes;
 }
 
 /// OpenCV tells what it cannot decode on stderr; the user gets our own words.  On one thread at a time, as the stream is shared.
@@ -301,7 +317,10 @@ cv::Mat decode_image(const std::string& bytes, const std::string& name, std::siz
     notes->push_back(fmt::format("holds {} pages; the first is read", header->pages));
   cv::Mat image;
   try {
-    const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
+    const bool turned = is_tiff(bytes) && header->orientation != 1;
+    const std::string other = turned ? without_orientation(bytes) : std::string();
+    const std::string& decoded = turned ? other : bytes;
+    const cv::Mat buffer(1, static_cast<int>(decoded.size()), CV_8U, const_cast<char*>(decoded.data()));
     const SilentErrors silent;
     // Unchanged keeps transparency, which a JPEG has none of, but does not turn it upright, nor a PNG.
     image = cv::imdecode(buffer,

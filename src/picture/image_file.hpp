@@ -19,7 +19,7 @@ struct ImageHeader {
   std::size_t bits = 8;        ///< a channel; told of a TIFF
   std::size_t samples = 1;     ///< a pixel; told of a TIFF
   std::size_t pages = 1;
-  int orientation = 1;  ///< as Exif has it; told of a PNG: decoders turn the others
+  int orientation = 1;  ///< as Exif has it; told of a PNG and a TIFF: the decoder turns a JPEG
 };
 
 /// Whether a file's name ends as those of pictures that are read do.

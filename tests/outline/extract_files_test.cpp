@@ -180,6 +180,28 @@ std::string of_four_bytes(std::uint32_t number) {
   return bytes;
 }
 
+/// Where the centre of a stored picture of 128 x 120 pixels is seen, by the orientation 1 to 8.
+std::array<glm::dvec2, 8> seen_by_orientation() {
+  const glm::dvec2 c = kCentre;
+  return {{c,
+           {127 - c.x, c.y},
+           {127 - c.x, 119 - c.y},
+           {c.x, 119 - c.y},
+           {c.y, c.x},
+           {119 - c.y, c.x},
+           {119 - c.y, 127 - c.x},
+           {c.y, 127 - c.x}}};
+}
+
+/// Of the only piece's points.
+glm::dvec2 middle_of(const Extraction& found) {
+  EXPECT_EQ(found.pieces.size(), 1U);
+  glm::dvec2 middle(0.0);
+  for (const glm::dvec2& p : found.pieces.at(0).points)
+    middle += p / static_cast<double>(found.pieces[0].points.size());
+  return middle;
+}
+
 TEST(ExtractFiles, APngIsTurnedUprightAsItsExifSays) {
   const Folder folder;
   const std::string path = folder.file("disc.png");
@@ -197,24 +219,11 @@ TEST(ExtractFiles, APngIsTurnedUprightAsItsExifSays) {
     std::string bytes = plain;
     bytes.insert(place, of_four_bytes(26) + exif + of_four_bytes(png_checksum(exif)));
     std::ofstream(path, std::ios::binary) << bytes;
-    const Extraction found = extract(path);
-    glm::dvec2 middle(0.0);
-    for (const glm::dvec2& p : found.pieces.at(0).points)
-      middle += p / static_cast<double>(found.pieces[0].points.size());
-    return middle;
+    return middle_of(extract(path));
   };
   const std::size_t behind_header = 33;
   const std::size_t at_the_end = plain.size() - 12;
-  const glm::dvec2 c = kCentre;
-  // Where the stored picture's place c is seen, by the orientation 1 to 8.
-  const std::array<glm::dvec2, 8> seen{{c,
-                                        {127 - c.x, c.y},
-                                        {127 - c.x, 119 - c.y},
-                                        {c.x, 119 - c.y},
-                                        {c.y, c.x},
-                                        {119 - c.y, c.x},
-                                        {119 - c.y, 127 - c.x},
-                                        {c.y, 127 - c.x}}};
+  const std::array<glm::dvec2, 8> seen = seen_by_orientation();
   for (std::size_t k = 0; k < seen.size(); ++k) {
     for (const std::size_t place : {behind_header, at_the_end}) {
       const glm::dvec2 middle = middle_with(static_cast<char>(k + 1), place);
@@ -230,6 +239,77 @@ TEST(ExtractFiles, FurtherPagesOfATiffAreTold) {
   const Extraction found = extract(folder.file("pages.tif"));
   EXPECT_EQ(found.pieces.size(), 1U);
   EXPECT_EQ(found.notes, std::vector<std::string>{"holds 3 pages; the first is read"});
+}
+
+/// A whole number, lowest byte first.
+std::string number_of(std::size_t value, std::size_t bytes) {
+  std::string result;
+  for (std::size_t i = 0; i < bytes; ++i) result += static_cast<char>(value >> (8 * i));
+  return result;
+}
+
+/// A TIFF of red, green, blue and alpha in tiles, as which OpenCV writes none.
+std::string tiled_tiff(const cv::Mat& bgra, int orientation) {
+  constexpr int kSide = 64;
+  constexpr std::size_t kStart = 8;
+  std::string pixels;
+  std::vector<std::size_t> places;
+  for (int top = 0; top < bgra.rows; top += kSide) {
+    for (int left = 0; left < bgra.cols; left += kSide) {
+      places.push_back(kStart + pixels.size());
+      for (int k = 0; k < kSide * kSide; ++k) {
+        const cv::Point at(left + k % kSide, top + k / kSide);
+        const bool inside = at.x < bgra.cols && at.y < bgra.rows;
+        const cv::Vec4b pixel = inside ? bgra.at<cv::Vec4b>(at) : cv::Vec4b(0, 0, 0, 0);
+        for (const int channel : {2, 1, 0, 3}) pixels += static_cast<char>(pixel[channel]);
+      }
+    }
+  }
+  struct Entry {
+    std::size_t tag;
+    std::size_t bytes;  // of a value
+    std::vector<std::size_t> values;
+  };
+  const std::vector<std::size_t> sizes(places.size(), std::size_t{4} * kSide * kSide);
+  const std::vector<Entry> entries{{256, 2, {static_cast<std::size_t>(bgra.cols)}},
+                                   {257, 2, {static_cast<std::size_t>(bgra.rows)}},
+                                   {258, 2, {8, 8, 8, 8}},
+                                   {259, 2, {1}},
+                                   {262, 2, {2}},
+                                   {274, 2, {static_cast<std::size_t>(orientation)}},
+                                   {277, 2, {4}},
+                                   {284, 2, {1}},
+                                   {322, 2, {kSide}},
+                                   {323, 2, {kSide}},
+                                   {324, 4, places},
+                                   {325, 4, sizes},
+                                   {338, 2, {2}}};
+  const std::size_t directory = kStart + pixels.size();
+  std::string listed = number_of(entries.size(), 2);
+  std::string behind;
+  for (const Entry& entry : entries) {
+    std::string values;
+    for (const std::size_t value : entry.values) values += number_of(value, entry.bytes);
+    listed += number_of(entry.tag, 2) + number_of(entry.bytes == 2 ? 3 : 4, 2);
+    listed += number_of(entry.values.size(), 4);
+    const std::size_t there = directory + 2 + 12 * entries.size() + 4 + behind.size();
+    if (values.size() > 4) behind += values;
+    values.resize(4, '\0');
+    listed += entry.values.size() * entry.bytes > 4 ? number_of(there, 4) : values;
+  }
+  return std::string("II*\0", 4) + number_of(directory, 4) + pixels + listed + number_of(0, 4) + behind;
+}
+
+TEST(ExtractFiles, ATiffInTilesIsTurnedUprightAsAWhole) {
+  const Folder folder;
+  const std::string path = folder.file("tiles.tif");
+  cv::Mat stored;
+  with_alpha(disc({128, 120})).copyTo(stored);
+  const std::array<glm::dvec2, 8> seen = seen_by_orientation();
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    std::ofstream(path, std::ios::binary) << tiled_tiff(stored, static_cast<int>(k + 1));
+    EXPECT_LT(glm::distance(middle_of(extract(path)), seen[k]), 0.5) << k + 1;
+  }
 }
 
 TEST(ExtractFiles, TiffsThatWouldLoseSomethingAreRefusedInOurOwnWords) {
