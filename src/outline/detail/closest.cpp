@@ -21,6 +21,8 @@ constexpr double kNoGap = 0.002;
 constexpr std::size_t kLeastContacts = 6;
 /// A sample that is not close costs as much as this many close ones when the boundary's ends are found.
 constexpr double kBreakCost = 2.0;
+/// Of the determinant of the equations, arms of turns taken as 1: less tells nothing.
+constexpr double kNothingTold = 1e-12;
 
 glm::dvec2 sample_point(const ScaleSignal& signal, std::int64_t index) {
   return signal.points[wrapped(index, signal.points.size())];
@@ -230,6 +232,11 @@ class Fitter {
     };
     const Motion motion(fit_.pose);
     double weights = 0.0;
+    double arms = 0.0;  // mean square
+    for (const Contact& c : fit_.contacts) {
+      const glm::dvec2 arm = sample_point(*a_.signal, c.i) - centre;
+      arms += glm::dot(arm, arm) / static_cast<double>(fit_.contacts.size());
+    }
     for (const Contact& c : fit_.contacts) {
       const glm::dvec2 along = tangent(*a_.signal, c.i);
       const glm::dvec2 on_a = sample_point(*a_.signal, c.i);
@@ -244,7 +251,8 @@ class Fitter {
       add(row_of(on_a, along, 0.0), std::clamp(glm::dot(off, along), -tolerance_, tolerance_), kAlong);
     }
     add({0.0, 0.0, 0.0, 1.0}, 0.0, kNoGap * weights);
-    if (std::abs(glm::determinant(normal_matrix)) < 1e-12) return;
+    // Turns are told by arms, so the determinant goes with their square: in metres as in micrometres.
+    if (std::abs(glm::determinant(normal_matrix)) < kNothingTold * arms) return;
     const glm::dvec4 change = glm::inverse(normal_matrix) * right;
     const Planar turn{change.x, {}, false};
     const Planar update{change.x, centre + glm::dvec2(change.y, change.z) - turn.direction(centre), false};
