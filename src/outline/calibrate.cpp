@@ -122,7 +122,8 @@ void add_false(const Level& level, const std::set<std::pair<std::size_t, std::si
     if (a == b || joined.count({std::min(a, b), std::max(a, b)}) > 0) continue;
     const std::int32_t length = kLengths[trial % kLengths.size()];
     const auto found = detail::initial_candidates(level.sequences(a, b), {kChance, kChance, 0.0}, length, 1);
-    if (found.empty()) continue;
+    // Once round a border that has fewer samples at this scale it is shorter.
+    if (found.empty() || found[0].path.size() < static_cast<std::size_t>(length)) continue;
     std::vector<detail::PairedSamples> stretch = found[0].path;
     stretch.resize(static_cast<std::size_t>(length));
     known.push_back(measure(level.sequences(a, b), stretch, false));
