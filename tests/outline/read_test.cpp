@@ -199,6 +199,13 @@ TEST_F(Read, CsvWithBlanksOrTabsMayHaveDecimalCommas) {
   EXPECT_DOUBLE_EQ(
       only_area(read_pieces(write("a.txt", "0,5\t0,5\r\n10,5\t0,5\r\n10,5\t10,5\r\n0,5\t10,5\r\n"))), 100.0);
   EXPECT_DOUBLE_EQ(only_area(read_pieces(write("b.txt", "0 0\n2,5 0\n2,5 2,5\n0 2,5\n"))), 6.25);
+  EXPECT_DOUBLE_EQ(only_area(read_pieces(write(
+                       "id.txt", "id\tx\ty\n1\t0,5\t0,5\n2\t10,5\t0,5\n3\t10,5\t10,5\n4\t0,5\t10,5\n"))),
+                   100.0);
+  EXPECT_DOUBLE_EQ(only_area(read_pieces(write(
+                       "z.txt", "x\ty\tz\n0,5\t0,5\t1,5\n10,5\t0,5\t1,5\n10,5\t8,5\t1,5\n0,5\t8,5\t1,5\n"))),
+                   80.0);
+  EXPECT_DOUBLE_EQ(only_area(read_pieces(write("told.csv", "# 1,5 2,5\n0,0\n4,0\n4,2\n0,2\n"))), 8.0);
   expect_refusal("c.txt", "0,5 0,5\n3,5 0,5\n3,5,2\n", "line 3 has commas");
   expect_refusal("d.txt", "0,5 0,5\n3,5\n3,5 2,5\n", "line 2 is no point");
 }

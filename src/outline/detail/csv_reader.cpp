@@ -111,20 +111,26 @@ bool is_digit(std::string_view text, std::size_t i) {
   return i < text.size() && text[i] >= '0' && text[i] <= '9';
 }
 
-/// Whether a line is two numbers with decimal commas and blanks or tabs between them, and nothing else.
-bool is_pair_with_decimal_commas(std::string_view line) {
-  const std::size_t end = line.find_first_of(kBlanks);
-  if (end == std::string_view::npos) return false;
-  const std::string_view second = line.substr(line.find_first_not_of(kBlanks, end));
-  const auto has_comma = [](std::string_view word) {
+/// Whether blanks or tabs part the columns of a line and all its commas are decimal ones: those of two columns, or between tabs of more.
+bool has_decimal_commas_between_blanks(std::string_view line) {
+  if (line.starts_with('#')) return false;
+  const bool tabs = line.find('\t') != std::string_view::npos;
+  std::size_t words = 0;
+  std::size_t commas = 0;
+  for (; !line.empty(); ++words) {
+    const std::string_view word = line.substr(0, line.find_first_of(kBlanks));
+    line = trimmed(line.substr(word.size()), kBlanks);
     const std::size_t comma = word.find(',');
-    return comma != std::string_view::npos && comma > 0 && is_digit(word, comma - 1) &&
-           is_digit(word, comma + 1) && word.find_first_of(", ;\t", comma + 1) == std::string_view::npos;
-  };
-  return has_comma(line.substr(0, end)) && has_comma(second);
+    if (comma == std::string_view::npos) continue;
+    const bool decimal = comma > 0 && is_digit(word, comma - 1) && is_digit(word, comma + 1) &&
+                         word.find_first_of(",;", comma + 1) == std::string_view::npos;
+    if (!decimal) return false;
+    ++commas;
+  }
+  return words > 1 && (commas == 2 || (tabs && commas > 2));
 }
 
-/// A line with points in place of decimal commas.  A semicolon, or in a table of is_pair_with_decimal_commas() blanks, part the
+/// A line with points in place of decimal commas.  A semicolon, or in a table of has_decimal_commas_between_blanks() these, part the
 /// columns, so a comma between two digits that is the only one of its column is no separator.
 /// \return nullopt: what the commas mean is open
 std::optional<std::string> with_points(std::string_view line, bool blanks_part) {
@@ -195,7 +201,7 @@ class CsvReader {
 
   void read(std::string_view text) {
     for (std::string_view rest = text; !rest.empty() && !blanks_part_;)
-      blanks_part_ = is_pair_with_decimal_commas(trimmed(without_quotes(take_line(rest)), kSeparators));
+      blanks_part_ = has_decimal_commas_between_blanks(trimmed(without_quotes(take_line(rest)), kSeparators));
     for (std::size_t number = 1; !text.empty(); ++number) {
       const std::string line = without_quotes(take_line(text));
       const std::string_view content = trimmed(line, kSeparators);
