@@ -168,6 +168,17 @@ PointRun grown_run(const Silhouette& a, const Silhouette& b, const Planar& a_to_
     const glm::dvec2 inward = b.field.gradient(p);
     return glm::dot(motion.direction(a.normals[at]), inward) >= kFacing * glm::length(inward);
   };
+  const auto begins_contact = [&](long at, long way) {
+    for (long k = 0; k < kMisses; ++k)
+      if (!touches(at - way * k)) return false;
+    return true;
+  };
+  const PointRun whole = run;
+  for (const long way : {-1L, 1L}) {
+    long& end = way < 0 ? run.first : run.last;
+    while (run.first < run.last && !begins_contact(end, way)) end -= way;
+  }
+  if (run.first >= run.last) run = whole;
   for (const long way : {-1L, 1L}) {
     long& end = way < 0 ? run.first : run.last;
     long misses = 0;

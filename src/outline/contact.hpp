@@ -90,7 +90,8 @@ struct PointRun {
   long last = 0;
 };
 
-/// A run with its ends moved outwards as long as A's border touches B's; three points that do not, in a row, end it.
+/// A run with its ends moved inwards to where three points in a row touch B's border, and from there outwards as long as A's border does;
+/// three points that do not, in a row, end it.
 /// \param a_to_b  A's coordinates to B's   \param tolerance  as for measure_contact()
 /// \return at most once round A
 PointRun grown_run(const Silhouette& a, const Silhouette& b, const Planar& a_to_b, double tolerance,

@@ -138,27 +138,33 @@ class EmdMatcher final : public Matcher {
     return candidate;
   }
 
-  static Boundary boundary(const PropertyPlot& a, const PropertyPlot& b, const Stretch& stretch) {
-    return {a.step * static_cast<double>(wrapped(stretch.a.front(), a.size())),
-            b.step * static_cast<double>(wrapped(-stretch.b.front(), b.size())),
-            a.step * static_cast<double>(stretch.a.size() - 1)};
+  static Boundary of_lengths(double begin_a, double begin_b, double length_a, double length_b) {
+    return {begin_a, begin_b, 0.5 * (length_a + length_b), 0, 0, length_b - length_a};
   }
 
-  /// The boundary with the ends that cost more than they add, as far as the borders touch at the candidate's pose.
+  static Boundary boundary(const PropertyPlot& a, const PropertyPlot& b, const Stretch& stretch) {
+    return of_lengths(a.step * static_cast<double>(wrapped(stretch.a.front(), a.size())),
+                      b.step * static_cast<double>(wrapped(-stretch.b.front(), b.size())),
+                      a.step * static_cast<double>(stretch.a.back() - stretch.a.front()),
+                      b.step * static_cast<double>(stretch.b.back() - stretch.b.front()));
+  }
+
+  /// The boundary as far as the borders touch at the candidate's pose: with ends that cost more than they add, without such as look alike
+  /// and lie apart.
   static Boundary grown(const ScaledPiece& a, const ScaledPiece& b, const JoinCandidate& candidate) {
-    const auto& [begin_a, begin_b, length, hole_a, hole_b] = candidate.boundary;
+    const Boundary& met = candidate.boundary;
     const Silhouette& sa = a.silhouette;
     const Silhouette& sb = b.silhouette;
-    const PointRun on_a =
-        grown_run(sa, sb, inverse(candidate.pose), kTolerance * sa.step,
-                  {std::lround(begin_a / sa.step), std::lround((begin_a + length) / sa.step)});
-    const PointRun on_b =
-        grown_run(sb, sa, candidate.pose, kTolerance * sa.step,
-                  {std::lround((begin_b - length) / sb.step), std::lround(begin_b / sb.step)});
-    return {sa.step * static_cast<double>(wrapped(on_a.first, sa.points.size())),
-            sb.step * static_cast<double>(wrapped(on_b.last, sb.points.size())),
-            0.5 * (sa.step * static_cast<double>(on_a.last - on_a.first) +
-                   sb.step * static_cast<double>(on_b.last - on_b.first))};
+    const PointRun on_a = grown_run(
+        sa, sb, inverse(candidate.pose), kTolerance * sa.step,
+        {std::lround(met.begin_a / sa.step), std::lround((met.begin_a + met.length_a()) / sa.step)});
+    const PointRun on_b = grown_run(
+        sb, sa, candidate.pose, kTolerance * sa.step,
+        {std::lround((met.begin_b - met.length_b()) / sb.step), std::lround(met.begin_b / sb.step)});
+    return of_lengths(sa.step * static_cast<double>(wrapped(on_a.first, sa.rings[0].end)),
+                      sb.step * static_cast<double>(wrapped(on_b.last, sb.rings[0].end)),
+                      sa.step * static_cast<double>(on_a.last - on_a.first),
+                      sb.step * static_cast<double>(on_b.last - on_b.first));
   }
 
   /// Drops all but the best of candidates that lay B in the same place.

@@ -176,6 +176,7 @@ std::optional<FittedJoin> JoinFitter::fit(std::size_t a, std::size_t b,
   join.boundary.begin_a = wrapped_place(begin_a, s.perimeters[a]);
   join.boundary.begin_b = wrapped_place(begin_b, s.perimeters[b]);
   join.boundary.length = 0.5 * (end_a - begin_a + begin_b - end_b);
+  join.boundary.longer_b = begin_b - end_b - (end_a - begin_a);
   const auto& [piece_a, hole_a] = s.borders[a];
   const auto& [piece_b, hole_b] = s.borders[b];
   join.boundary.hole_a = hole_a;
@@ -204,6 +205,7 @@ FittedJoin JoinFitter::exchanged(std::size_t a, std::size_t b, const FittedJoin&
   boundary.begin_a = wrapped_place(result.pairs.front().on_a, state_->perimeters[b]);
   boundary.begin_b = wrapped_place(result.pairs.front().on_b, state_->perimeters[a]);
   std::swap(boundary.hole_a, boundary.hole_b);
+  boundary.longer_b = -boundary.longer_b;
   return result;
 }
 

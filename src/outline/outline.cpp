@@ -29,11 +29,12 @@ JoinCandidate exchanged(const JoinCandidate& join, double perimeter_a, double pe
   };
   const Boundary& met = join.boundary;
   const Boundary boundary{
-      .begin_a = join.pose.flipped ? met.begin_b : on_border(met.begin_b - met.length, perimeter_b),
-      .begin_b = join.pose.flipped ? met.begin_a : on_border(met.begin_a + met.length, perimeter_a),
+      .begin_a = join.pose.flipped ? met.begin_b : on_border(met.begin_b - met.length_b(), perimeter_b),
+      .begin_b = join.pose.flipped ? met.begin_a : on_border(met.begin_a + met.length_a(), perimeter_a),
       .length = met.length,
       .hole_a = met.hole_b,
-      .hole_b = met.hole_a};
+      .hole_b = met.hole_a,
+      .longer_b = -met.longer_b};
   return {inverse(join.pose), join.score, boundary};
 }
 

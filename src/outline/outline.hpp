@@ -110,6 +110,11 @@ struct Boundary {
   double length = 0.0;     ///< mean of the stretch's lengths on A and B, file units
   std::size_t hole_a = 0;  ///< the border of A along which it runs, see border_of(): a hole that B lies in
   std::size_t hole_b = 0;  ///< the same of B
+  double longer_b =
+      0.0;  ///< by how much the stretch on B is longer than that on A, as on a border that noise has made longer
+
+  double length_a() const { return length - 0.5 * longer_b; }
+  double length_b() const { return length + 0.5 * longer_b; }
 };
 
 /// One way in which B may join A.

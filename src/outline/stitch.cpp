@@ -97,11 +97,11 @@ detail::Polygon stretch_of(const detail::Polygon& polygon, double begin, double 
 
 /// What the two stretches of a boundary enclose: all along A's and back along B's.
 detail::Polygon strip_between(const Outline& a, const Outline& b, const JoinCandidate& join) {
-  const auto& [begin_a, begin_b, length, hole_a, hole_b] = join.boundary;
-  detail::Polygon strip = stretch_of(border_of(a, hole_a), begin_a, length);
-  const detail::Polygon& border_b = border_of(b, hole_b);
-  const double on_b = std::min(length, perimeter(border_b));  // a mean may be longer than the shorter side
-  detail::Polygon back = stretch_of(border_b, join.pose.flipped ? begin_b : begin_b - on_b, on_b);
+  const Boundary& met = join.boundary;
+  detail::Polygon strip = stretch_of(border_of(a, met.hole_a), met.begin_a, met.length_a());
+  const detail::Polygon& border_b = border_of(b, met.hole_b);
+  const double on_b = std::min(met.length_b(), perimeter(border_b));
+  detail::Polygon back = stretch_of(border_b, join.pose.flipped ? met.begin_b : met.begin_b - on_b, on_b);
   if (join.pose.flipped) std::reverse(back.begin(), back.end());
   for (const glm::dvec2& p : back) strip.push_back(join.pose(p));
   return strip;

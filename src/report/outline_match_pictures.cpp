@@ -114,7 +114,7 @@ void draw_curve(Image& image, const View& view, const Polygon& curve, const outl
 
 /// The length to go along B from where the boundary begins on it: backwards, or forwards where B lies upside down.
 double way_on_b(const outline::JoinCandidate& join) {
-  return join.pose.flipped ? join.boundary.length : -join.boundary.length;
+  return join.pose.flipped ? join.boundary.length_b() : -join.boundary.length_b();
 }
 
 /// Curvature of an open run of points, of the border as it is passed forwards.
@@ -146,7 +146,7 @@ void draw_curvatures(Image& image, const outline::Outline& a, const outline::Out
   const outline::Boundary& boundary = best.boundary;
   const Area area{60, kTop + kPanel + 44, kWidth - 100, kPlotHeight - 84};
   const std::vector<double> on_a =
-      curvature_along(border_of(a, boundary.hole_a), boundary.begin_a, boundary.length);
+      curvature_along(border_of(a, boundary.hole_a), boundary.begin_a, boundary.length_a());
   std::vector<double> on_b = curvature_along(border_of(b, boundary.hole_b), boundary.begin_b, way_on_b(best));
   for (double& bend : on_b) bend = -bend;  // passed backwards, or turned over: true partners are equal
   std::vector<double> sizes;
@@ -177,7 +177,7 @@ void draw_joined(Image& image, const outline::Piece& a, const outline::Piece& b,
   draw_piece(image, joined, b.outline, best.pose, kFillB);
   const outline::Boundary& boundary = best.boundary;
   const Polygon on_a =
-      stretch(border_of(a.outline, boundary.hole_a), boundary.begin_a, boundary.length, kSamples);
+      stretch(border_of(a.outline, boundary.hole_a), boundary.begin_a, boundary.length_a(), kSamples);
   const Polygon on_b =
       stretch(border_of(b.outline, boundary.hole_b), boundary.begin_b, way_on_b(best), kSamples);
   const auto [view_a, view_b] = views_apart(a, b);

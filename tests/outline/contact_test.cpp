@@ -132,6 +132,16 @@ TEST(Contact, SettlingClosesAGap) {
   EXPECT_NEAR(settled.translation.x, 100.0, 0.1);
 }
 
+TEST(Contact, ARunEndsWhereTheBordersPartOnBothSides) {
+  const Silhouette a(rectangle({0, 0}, {100, 50}), 1.0, 1.0);  // its upper side: points 150 to 250
+  const Silhouette b(rectangle({0, 50}, {100, 90}), 1.0, 1.0);
+  for (const auto& [first, last] : {std::pair(110L, 240L), std::pair(160L, 290L), std::pair(190L, 210L)}) {
+    const PointRun run = grown_run(a, b, {}, 1.5, {first, last});
+    EXPECT_NEAR(static_cast<double>(run.first), 150.0, 3.0) << first;
+    EXPECT_NEAR(static_cast<double>(run.last), 250.0, 3.0) << first;
+  }
+}
+
 TEST(PropertyPlot, OfACircleIsItsCurvature) {
   const PropertyPlot plot(circle(50, 2000), {2.0, 2.0, false});
   // Over two samples either way of 2 units the direction turns by 4 / 50.

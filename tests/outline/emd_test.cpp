@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 
 #include "outline/contact.hpp"
 #include "outline/frechet.hpp"
 #include "outline/lcs.hpp"
+#include "outline/polygon.hpp"
 #include "outline/stitch.hpp"
 #include "planted.hpp"
 
@@ -114,6 +116,65 @@ TEST(Emd, OrderOfThePiecesDoesNotMatter) {
   for (const auto& make : {std::function(make_emd), std::function(make_frechet)})
     expect_the_same_either_way(*make({}), board.pieces);
   expect_the_same_either_way(*make_lcs(), board.pieces);
+}
+
+/// A piece whose border zigzags from point to point, as a noisy scan's does, so that it is longer.
+Piece zigzagged(Piece piece, double aside) {
+  std::vector<glm::dvec2> points;
+  const std::vector<glm::dvec2>& border = piece.outline.points;
+  for (std::size_t i = 0; i < border.size(); ++i) {
+    const glm::dvec2 along = border[(i + 1) % border.size()] - border[i];
+    const double side = i % 2 == 0 ? aside : -aside;
+    points.push_back(border[i]);
+    points.push_back(border[i] + 0.5 * along + side * glm::dvec2(-along.y, along.x));
+  }
+  piece.outline.points = std::move(points);
+  return piece;
+}
+
+TEST(Emd, EitherWayTheBoundaryBeginsWhereThePiecesMeetThoughOneBorderIsLonger) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    planted::Board board = planted::broken_board(2, 1, 0.02, seed);
+    const double before = perimeter(board.pieces[1].outline.points);
+    board.pieces[1] = zigzagged(board.pieces[1], 0.22);
+    ASSERT_GT(perimeter(board.pieces[1].outline.points), 1.08 * before);
+    const double most = 3.0 * median_perimeter(board.pieces) / 240.0;
+    for (const auto& matcher : {make_lcs(), make_emd()}) {
+      matcher->prepare(board.pieces);
+      for (const auto& [a, b] : {std::pair(0, 1), std::pair(1, 0)}) {
+        const PairResult result =
+            matcher->match(static_cast<std::size_t>(a), static_cast<std::size_t>(b), {});
+        ASSERT_FALSE(result.candidates.empty());
+        const JoinCandidate& best = result.candidates[0];
+        const auto place = [&](int piece, double distance) {
+          const std::vector<glm::dvec2>& border =
+              board.pieces[static_cast<std::size_t>(piece)].outline.points;
+          return point_at(border, arc_lengths(border), distance);
+        };
+        EXPECT_LT(glm::distance(place(a, best.boundary.begin_a), best.pose(place(b, best.boundary.begin_b))),
+                  most)
+            << seed << " " << a;
+      }
+    }
+  }
+}
+
+TEST(Emd, TheBoundaryBeginsOnTheBorderOfAPieceWithAHole) {
+  planted::Board board = planted::broken_board(2, 1, 0.02, 2);
+  std::vector<glm::dvec2>& border = board.pieces[1].outline.points;
+  const glm::dvec2 middle = inner_point(border);
+  board.pieces[1].outline.holes = {
+      {middle, middle + glm::dvec2(0, 20), middle + 20.0, middle + glm::dvec2(20, 0)}};
+  const auto matcher = make_emd();
+  for (int turn = 0; turn < 40; ++turn) {
+    std::rotate(border.begin(), border.begin() + static_cast<std::ptrdiff_t>(border.size() / 40),
+                border.end());
+    matcher->prepare(board.pieces);
+    for (const JoinCandidate& candidate : matcher->match(0, 1, Context()).candidates) {
+      EXPECT_GE(candidate.boundary.begin_b, 0.0);
+      EXPECT_LT(candidate.boundary.begin_b, perimeter(border)) << turn;
+    }
+  }
 }
 
 TEST(Emd, SaysLittleOfPiecesThatDoNotJoin) {

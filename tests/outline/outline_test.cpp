@@ -47,6 +47,21 @@ TEST(Planar, AngleBetweenWrapsAround) {
 
 const std::vector<glm::dvec2> kSquare{{1e6, 0}, {1e6 + 2, 0}, {1e6 + 2, 2}, {1e6, 2}};
 
+TEST(JoinCandidate, ExchangedBeginsAtTheOtherEndOfBothStretches) {
+  JoinCandidate join;
+  join.boundary = {10.0, 50.0, 22.0, 0, 0, 4.0};  // A from 10 to 30, B from 50 back to 26
+  const Boundary back = exchanged(join, 100.0, 100.0).boundary;
+  EXPECT_DOUBLE_EQ(back.begin_a, 26.0);
+  EXPECT_DOUBLE_EQ(back.begin_b, 30.0);
+  EXPECT_DOUBLE_EQ(back.length_a(), 24.0);
+  EXPECT_DOUBLE_EQ(back.length_b(), 20.0);
+  join.pose.flipped = true;  // B from 50 on to 74
+  const Boundary along = exchanged(join, 100.0, 100.0).boundary;
+  EXPECT_DOUBLE_EQ(along.begin_a, 50.0);
+  EXPECT_DOUBLE_EQ(along.begin_b, 10.0);
+  EXPECT_DOUBLE_EQ(along.length_a(), 24.0);
+}
+
 TEST(Polygon, AreaOfAFarSquareIsExact) {
   EXPECT_DOUBLE_EQ(signed_area(kSquare), 4.0);
   EXPECT_DOUBLE_EQ(signed_area({kSquare.rbegin(), kSquare.rend()}), -4.0);

@@ -69,6 +69,7 @@ LcsScale::Prepared LcsScale::prepared(const Piece& piece) const {
   Prepared result;
   result.turns = turns_of(piece.outline.points, {step_, options_.window, options_.straight_deg});
   result.area = signed_area(piece.outline.points);
+  result.perimeter = perimeter(piece.outline.points);
   const std::size_t n = result.turns.points.size();
   for (std::size_t i = 0; i < n; i += stride()) {
     const float change = result.turns.change_deg[i];
@@ -169,7 +170,15 @@ std::optional<LcsFit> LcsScale::judged(const Prepared& a, const Prepared& b, con
   LcsFit result;
   result.join.pose = pose;
   const auto& [first_a, first_b] = seam.pairs.front();
-  result.join.boundary = {a.turns.places[first_a], b.turns.places[first_b], seam.length};
+  const auto& [last_a, last_b] = seam.pairs.back();
+  const auto along = [](const Prepared& piece, std::uint32_t from, std::uint32_t to) {
+    const double length = piece.turns.places[to] - piece.turns.places[from];
+    return length < 0.0 ? length + piece.perimeter : length;
+  };
+  const double length_a = along(a, first_a, last_a);
+  const double length_b = pose.flipped ? along(b, first_b, last_b) : along(b, last_b, first_b);
+  result.join.boundary = {a.turns.places[first_a], b.turns.places[first_b], 0.5 * (length_a + length_b), 0, 0,
+                          length_b - length_a};
   const auto& [middle_a, middle_b] = seam.pairs[seam.pairs.size() / 2];
   result.middle_a = a.turns.places[middle_a];
   result.middle_b = b.turns.places[middle_b];

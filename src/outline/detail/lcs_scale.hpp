@@ -47,6 +47,7 @@ class LcsScale {
     /// The same as a partner meets it: backward and negated; upside down: negated.
     std::array<std::vector<std::uint8_t>, 2> partner;
     double area = 0.0;
+    double perimeter = 0.0;
     Outline coarse;  ///< for the check of the union
   };
   using SamplePair = std::pair<std::uint32_t, std::uint32_t>;

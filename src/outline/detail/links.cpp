@@ -33,9 +33,9 @@ constexpr double kLeastTouching = 0.9;
 /// Whether a candidate that lays one piece into a hole of the other may be used; true for all others.
 bool fills_hole(const JoinCandidate& candidate, const Silhouette& a, const Silhouette& b,
                 const Contact& contact) {
-  const auto& [begin_a, begin_b, length, hole_a, hole_b] = candidate.boundary;
-  if ((hole_a == 0 && hole_b == 0) || candidate.score >= kLeastInHole) return true;
-  const Ring& border = hole_a > 0 ? b.rings[0] : a.rings[0];
+  const Boundary& met = candidate.boundary;
+  if ((met.hole_a == 0 && met.hole_b == 0) || candidate.score >= kLeastInHole) return true;
+  const Ring& border = met.hole_a > 0 ? b.rings[0] : a.rings[0];
   return contact.length >= kLeastTouching * border.step * static_cast<double>(border.end);
 }
 

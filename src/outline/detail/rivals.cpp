@@ -40,10 +40,10 @@ Stretch stretch_on(const Link& link, std::size_t piece, const LinkedPieces& piec
   const Boundary& boundary = link.boundary;
   if (boundary.hole_a > 0 || boundary.hole_b > 0) return {};
   const bool backward = link.b == piece && !link.pose.flipped;
-  const double first =
-      link.a == piece ? boundary.begin_a : boundary.begin_b - (backward ? boundary.length : 0.0);
+  const double length = link.a == piece ? boundary.length_a() : boundary.length_b();
+  const double first = link.a == piece ? boundary.begin_a : boundary.begin_b - (backward ? length : 0.0);
   const double begin = first / pieces.perimeters[piece];
-  return {begin - std::floor(begin), boundary.length / pieces.perimeters[piece]};
+  return {begin - std::floor(begin), length / pieces.perimeters[piece]};
 }
 
 using IsNone = std::function<bool(const Link& other)>;
