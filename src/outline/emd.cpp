@@ -53,11 +53,13 @@ class EmdMatcher final : public Matcher {
     perimeters_.clear();
     for (const Piece& piece : pieces) perimeters_.push_back(perimeter(piece.outline.points));
     const double length = median_perimeter(pieces);
+    longest_ = kOtherUnit * length;
     if (!(length > 0.0)) throw InputError(pieces[0].name, "has a border of no length", "give an outline");
     for (const double samples : options_.samples) {
       std::vector<std::unique_ptr<ScaledPiece>> scaled(pieces.size());
       parallel_for(pieces.size(), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
+          if (perimeters_[i] > longest_) continue;
           const Outline& outline = pieces[i].outline;
           const double step = length / samples;
           scaled[i] = std::make_unique<ScaledPiece>(
@@ -70,6 +72,8 @@ class EmdMatcher final : public Matcher {
   }
 
   PairResult match(std::size_t a, std::size_t b, const Context& context) const override {
+    // The time goes with the longer border's samples at the others' steps, which would be millions.
+    if (std::max(perimeters_[a], perimeters_[b]) > longest_) return {};
     // The stretches grow along the first border, and B is laid on A: the answer must not depend on which comes first.
     return shorter_first(a, b, perimeters_, [&](std::size_t first, std::size_t second) {
       return match_in_order(first, second, context);
@@ -186,6 +190,7 @@ class EmdMatcher final : public Matcher {
   Measure measure_;
   std::vector<std::vector<std::unique_ptr<ScaledPiece>>> scales_;
   std::vector<double> perimeters_;
+  double longest_ = 0.0;  ///< of a border that is compared, file units
 };
 
 }  // namespace

@@ -145,6 +145,9 @@ double signed_area(const std::vector<glm::dvec2>& polygon);
 /// Length of a closed polygon.
 double perimeter(const std::vector<glm::dvec2>& polygon);
 
+/// A border that is so many times as long as most others' is in another unit, or is none of a piece.
+inline constexpr double kOtherUnit = 200.0;
+
 /// The middle one of the pieces' perimeters, the upper one of an even count.
 /// \pre not empty
 double median_perimeter(const std::vector<Piece>& pieces);

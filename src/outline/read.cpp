@@ -244,6 +244,18 @@ std::optional<std::string> doubt_axes(const std::vector<Piece>& pieces) {
       up->name, down->name);
 }
 
+std::optional<std::string> doubt_units(const std::vector<Piece>& pieces) {
+  if (pieces.size() < 3) return std::nullopt;  // which of two has the other unit nobody knows
+  const double usual = median_perimeter(pieces);
+  const auto length = [](const Piece& piece) { return perimeter(piece.outline.points); };
+  const auto longest = std::ranges::max_element(pieces, {}, length);
+  if (length(*longest) <= kOtherUnit * usual) return std::nullopt;
+  return fmt::format(
+      "{} has a border {:.2g} times as long as most others: if its coordinates have another unit, as degrees "
+      "beside metres, write all in the same, or take it out",
+      longest->name, length(*longest) / usual);
+}
+
 /// Adds what a file of a folder holds, or why it cannot be used.
 /// \return whether it can
 bool add_file(const fs::path& file, const ExtractOptions& options, PieceSet& all) {
@@ -340,6 +352,7 @@ PieceSet read_folder(const std::string& folder, const ExtractOptions& options, c
   const auto doubt = doubt_resolutions(usable);
   if (doubt) all.notes.push_back(*doubt);
   if (const auto mirrored = doubt_axes(all.pieces)) all.notes.push_back(*mirrored);
+  if (const auto units = doubt_units(all.pieces)) all.notes.push_back(*units);
   if (!options.keep_rectangles) detail::take_out_rectangles(all);
   detail::take_out_repeats(all);
   if (all.pieces.empty()) throw InputError(folder, "holds nothing that can be used", all.unusable[0].reason);

@@ -54,6 +54,10 @@ PieceSet read_folder(const std::string& folder, const ExtractOptions& options = 
 /// nullopt: all have it the same way.  read_folder() has it in its notes.
 std::optional<std::string> doubt_axes(const std::vector<Piece>& pieces);
 
+/// What to say of pieces whose borders are hundreds of times as long as most others', as where one file is in degrees and others in
+/// metres: what all are compared by fits neither kind.  read_folder() has it in its notes.
+std::optional<std::string> doubt_units(const std::vector<Piece>& pieces);
+
 /// Dots or units an inch that the pieces' files tell, if they agree; what is told is as for doubt_resolutions().
 std::optional<double> told_resolution(const std::vector<Piece>& pieces);
 

@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::size_t kShortest = 8;
 constexpr std::size_t kFewestPoints = 16;
+constexpr double kMostPoints = 1e6;  // of a border in another unit than that of the step
 
 /// Angle from the edge before each point to the edge after it.
 std::vector<float> turning_of(const std::vector<glm::dvec2>& points) {
@@ -51,8 +52,8 @@ std::vector<glm::dvec2> resample(const std::vector<glm::dvec2>& polygon, std::si
 }
 
 std::vector<glm::dvec2> resample_by(const std::vector<glm::dvec2>& polygon, double step) {
-  const auto wanted = static_cast<std::size_t>(std::lround(perimeter(polygon) / step));
-  return resample(polygon, std::max(kFewestPoints, wanted));
+  const double wanted = std::min(perimeter(polygon) / step, kMostPoints);
+  return resample(polygon, std::max(kFewestPoints, static_cast<std::size_t>(std::lround(wanted))));
 }
 
 std::vector<double> curvature(const std::vector<glm::dvec2>& points) {

@@ -13,7 +13,7 @@ namespace rejoin::outline {
 /// \pre count >= 1, the perimeter is positive
 std::vector<glm::dvec2> resample(const std::vector<glm::dvec2>& polygon, std::size_t count);
 
-/// The same with a wanted distance between the points, file units; at least 16 points are made.
+/// The same with a wanted distance between the points, file units; at least 16 points are made, at most a million.
 std::vector<glm::dvec2> resample_by(const std::vector<glm::dvec2>& polygon, double step);
 
 /// Signed curvature at the points of a closed, evenly spaced curve, 1 / file unit; positive where it turns left (with y

@@ -177,6 +177,15 @@ TEST(Emd, TheBoundaryBeginsOnTheBorderOfAPieceWithAHole) {
   }
 }
 
+TEST(Emd, APieceInAnotherUnitIsNotCompared) {
+  planted::Board board = planted::broken_board(3, 1, 0.05, 5);
+  for (glm::dvec2& p : board.pieces[2].outline.points) p *= 1e7;
+  const auto matcher = make_emd();
+  matcher->prepare(board.pieces);
+  EXPECT_TRUE(matcher->match(1, 2, Context()).candidates.empty());
+  EXPECT_FALSE(matcher->match(0, 1, Context()).candidates.empty());
+}
+
 TEST(Emd, SaysLittleOfPiecesThatDoNotJoin) {
   const planted::Board board = planted::broken_board(3, 1, 0.05, 5);
   const auto matcher = make_emd();

@@ -277,6 +277,17 @@ TEST_F(ReadFolder, NamesThatAreNoUtf8AreToldAndLeftOut) {
   EXPECT_NE(set.unusable[0].reason.find("p\uFFFD.csv: has a name that is no UTF-8"), std::string::npos);
 }
 
+TEST_F(ReadFolder, APieceInAnotherUnitIsDoubted) {
+  write("a.csv", "0,0\n4,0\n4,3\n0,2\n");
+  write("b.csv", "0,0\n5,0\n5,3\n0,4\n");
+  write("c.csv", "0,0\n900,0\n900,300\n0,200\n");
+  EXPECT_TRUE(read_folder(folder_.string()).notes.empty());
+  write("c.csv", "0,0\n4000,0\n4000,3000\n0,2000\n");
+  const PieceSet set = read_folder(folder_.string());
+  ASSERT_EQ(set.notes.size(), 1U);
+  EXPECT_EQ(set.notes[0].find("c.csv has a border"), 0U) << set.notes[0];
+}
+
 TEST_F(ReadFolder, FolderIsReadInTheOrderOfNames) {
   write("b.csv", "0,0\n1,0\n1,1\n0,1\n");
   write("a.csv", "0,0\n2,0\n2,2\n0,2\n");
