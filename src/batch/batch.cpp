@@ -169,6 +169,10 @@ class Work {
       const OddUnit unit = odd_unit(known);
       if (!unit.fragments.empty()) listener_.on_warning(told(unit), progress_);
       for (const store::Fragment& fragment : unit.fragments) doubted_.insert(fragment.name);
+      CoarseAmongSherds coarse = coarse_among_sherds(known);
+      std::erase_if(coarse.fragments,
+                    [this](const auto& fragment) { return doubted_.count(fragment.name) > 0; });
+      if (!coarse.fragments.empty()) listener_.on_warning(told(coarse), progress_);
     }
     OddSizes odd = odd_sizes(known);
     odd.fragments.erase(

@@ -73,13 +73,43 @@ std::string told(const OddUnit& odd) {
             : "");
 }
 
-std::vector<std::string> doubts_about_units(const std::vector<store::Fragment>& fragments) {
+CoarseAmongSherds coarse_among_sherds(const std::vector<store::Fragment>& fragments) {
+  constexpr double kEdgesAcross = 2.0;  // fewer points than that across a wall do not show it
+  std::vector<double> walls;
+  std::vector<store::Fragment> solid;
+  for (const store::Fragment& fragment : fragments) {
+    if (fragment.state != store::FragmentState::Ready) continue;
+    if (fragment.wall > 0)
+      walls.push_back(fragment.wall);
+    else
+      solid.push_back(fragment);
+  }
+  if (walls.size() <= solid.size()) return {};
+  CoarseAmongSherds coarse{median(walls), std::move(solid)};
+  std::erase_if(coarse.fragments, [&](const store::Fragment& fragment) {
+    return kEdgesAcross * fragment.spacing < coarse.wall;
+  });
+  return coarse;
+}
+
+std::string told(const CoarseAmongSherds& coarse) {
+  if (coarse.fragments.empty()) return "";
+  return fmt::format(
+      "{}: taken for solid among sherds with walls {:.3g} thick, which points as far apart as {:.3g} do not "
+      "show; if these are sherds, too, scan or export them more finely",
+      named(coarse.fragments), coarse.wall, coarse.fragments[0].spacing);
+}
+
+std::vector<std::string> doubts_about_lengths(const std::vector<store::Fragment>& fragments) {
   const OddUnit unit = odd_unit(fragments);
   OddSizes sizes = odd_sizes(fragments);
-  std::erase_if(sizes.fragments, [&](const store::Fragment& fragment) {
+  CoarseAmongSherds coarse = coarse_among_sherds(fragments);
+  const auto is_told = [&](const store::Fragment& fragment) {
     return std::ranges::count(unit.fragments, fragment.name, &store::Fragment::name) > 0;
-  });
-  std::vector<std::string> doubts{told(unit), told(sizes)};
+  };
+  std::erase_if(sizes.fragments, is_told);
+  std::erase_if(coarse.fragments, is_told);
+  std::vector<std::string> doubts{told(unit), told(sizes), told(coarse)};
   std::erase(doubts, "");
   return doubts;
 }

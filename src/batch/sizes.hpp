@@ -1,4 +1,4 @@
-/// Scans whose size says that they may be in another unit than the rest.
+/// Scans whose lengths say that they may be in another unit than the rest, or too coarse beside them.
 #pragma once
 
 #include <string>
@@ -31,7 +31,19 @@ OddUnit odd_unit(const std::vector<store::Fragment>& fragments);
 /// A line for the user; empty if there are none.
 std::string told(const OddUnit& odd);
 
-/// Both lines, without the empty ones; a scan of an odd unit is told as such alone.
-std::vector<std::string> doubts_about_units(const std::vector<store::Fragment>& fragments);
+/// Scans without walls, as of solid pieces, among sherds whose walls they would not show: their points are too far apart.
+struct CoarseAmongSherds {
+  double wall = 0;                         ///< median thickness of the sherds' walls, mesh units
+  std::vector<store::Fragment> fragments;  ///< none unless most of those that are ready are sherds
+};
+
+/// Looks at those that are ready.
+CoarseAmongSherds coarse_among_sherds(const std::vector<store::Fragment>& fragments);
+
+/// A line for the user; empty if there are none.
+std::string told(const CoarseAmongSherds& coarse);
+
+/// All lines, without the empty ones; a scan of an odd unit is told as such alone.
+std::vector<std::string> doubts_about_lengths(const std::vector<store::Fragment>& fragments);
 
 }  // namespace rejoin::batch

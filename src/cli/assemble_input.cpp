@@ -136,7 +136,8 @@ AssembleInput read_run(const fs::path& folder, Console& console, const Context& 
   input.warnings =
       batch::told(batch::kept_ones(batch::changed_scans(fragments), fragments, folder / batch::kCacheName),
                   "assembled is");
-  for (std::string& doubt : batch::doubts_about_units(fragments)) input.warnings.push_back(std::move(doubt));
+  for (std::string& doubt : batch::doubts_about_lengths(fragments))
+    input.warnings.push_back(std::move(doubt));
   const auto number = load_all(run, folder, input, console, context);
   if (input.fragments.size() < 2 && !context.cancelled())
     throw InputError(folder.string(), "fewer than two of its fragments can be used", "see the warnings");

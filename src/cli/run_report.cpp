@@ -442,7 +442,8 @@ report::RunReport read_run(const std::filesystem::path& run, std::size_t listed,
   const std::vector<store::Fragment> fragments = database.fragments();
   const std::map<std::string, std::string> copies = database.copies();
   for (const auto& [copy, first] : copies) report.warnings.push_back(store::told_of_copy(copy, first));
-  for (std::string& doubt : batch::doubts_about_units(fragments)) report.warnings.push_back(std::move(doubt));
+  for (std::string& doubt : batch::doubts_about_lengths(fragments))
+    report.warnings.push_back(std::move(doubt));
   for (const store::Fragment& stored : fragments) {
     numbers[stored.name] = report.fragments.size();
     report::ReportFragment fragment;

@@ -55,10 +55,11 @@ struct Fragment {
   mesh::Mesh
       surface;  ///< triangles at full resolution: the scan after clean-up, or the surface of its cloud; without flaps (mesh/flaps.hpp)
   std::optional<mesh::Mesh>
-      open;  ///< of a porous scan: what of `surface`, of a noisy one smoothed, lies in no pore (mesh/pores.hpp)
+      open;  ///< where some of it cannot touch: what of `surface`, of a noisy one smoothed, lies in no pore (mesh/pores.hpp), or is a break that was
+             ///< seen (mesh/filled_holes.hpp)
   mesh::Mesh
-      coarse;  ///< a level of detail for depth maps: at most 40,000 faces; of a noisy scan smoothed, of a porous one without pores
-  mesh::Segmentation facets;  ///< of `surface`, of a noisy scan smoothed, of a porous one without pores
+      coarse;  ///< a level of detail of `open`, or of `surface`, for depth maps: at most 40,000 faces; of a noisy scan smoothed
+  mesh::Segmentation facets;  ///< of `open`, or of `surface`, of a noisy scan smoothed
   double diameter = 0;        ///< mesh units
   double least_extent = 0;    ///< along the axis along which it spreads least, mesh units
   double resolution = 0;      ///< sample spacing, mesh units
@@ -73,7 +74,7 @@ struct Fragment {
   std::vector<std::string>
       warnings;  ///< what was mended when its file was read, and what may keep joins from being found
   std::vector<StageTime>
-      stages;  ///< surface (of a cloud), flaps, smooth (of a noisy scan), pores, coarse, facets; load where a file was read
+      stages;  ///< surface (of a cloud), flaps, smooth (of a noisy scan), pores, facets; load where a file was read
 };
 
 /// What of a fragment others can touch.

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "match/pose_space.hpp"
 #include "match/waviness.hpp"
 #include "mesh/bodies.hpp"
+#include "mesh/filled_holes.hpp"
 #include "mesh/flaps.hpp"
 #include "mesh/noise.hpp"
 #include "mesh/pores.hpp"
@@ -27,6 +29,9 @@ constexpr double kEdgesAcross = 3.5;
 constexpr double kNoisy = 0.1;        // of the points' spacing: what is left of less hides in the tolerance
 constexpr double kShapeless = 0.25;   // of the points' spacing: shape between them that is no noise
 constexpr double kFromOneSide = 0.5;  // share of a surface without anything behind it
+// Shares of the breaks' area that are filled holes: less hardly matters, more is taken for a smooth break.
+constexpr double kLeastFilled = 0.05;
+constexpr double kMostFilled = 0.6;
 
 /// Faces of the breaks; their walls may have fewer.
 mesh::Mesh broken_surface(const Fragment& fragment) {
@@ -118,6 +123,48 @@ void tell_pores(Fragment& fragment, double share) {
                   fragment.path, 100.0 * share));
 }
 
+/// \param matched  of which the fragment is made ready: its surface, smoothed or without pores
+void make_facets(Fragment& fragment, const mesh::Mesh& matched, mesh::PieceKind kind) {
+  fragment.coarse = matched.faces.size() > kCoarseFaces ? mesh::simplify(matched, kCoarseFaces) : matched;
+  fragment.middle = view_centre(fragment.coarse);
+  fragment.facets = mesh::segment(matched, fragment.diameter, kind);
+}
+
+double area_of(const mesh::Mesh& mesh, std::size_t face) {
+  const auto& [a, b, c] = std::array{mesh.vertices[mesh.faces[face].x], mesh.vertices[mesh.faces[face].y],
+                                     mesh.vertices[mesh.faces[face].z]};
+  return 0.5 * static_cast<double>(glm::length(glm::cross(b - a, c - a)));
+}
+
+/// What software made up where nothing was seen speaks against true joints: it is left out of the breaks, if there is any.
+/// \param filled  faces of `matched`, ascending
+void leave_out_filled_holes(Fragment& fragment, const mesh::Mesh& matched,
+                            const std::vector<std::uint32_t>& filled, mesh::PieceKind kind) {
+  const std::vector<int> samples = mesh::sample_of_faces(fragment.facets, matched);
+  std::vector<std::uint32_t> kept;
+  double broken = 0.0;
+  double made_up = 0.0;
+  auto next = filled.begin();
+  for (std::uint32_t f = 0; f < matched.faces.size(); ++f) {
+    const bool is_filled = next != filled.end() && *next == f;
+    if (is_filled) ++next;
+    const bool is_broken = samples[f] >= 0 && fragment.facets.surface[static_cast<std::size_t>(samples[f])] ==
+                                                  mesh::Surface::Fracture;
+    const double area = is_broken ? area_of(matched, f) : 0.0;
+    broken += area;
+    if (is_filled) made_up += area;
+    if (!is_filled || !is_broken) kept.push_back(f);
+  }
+  const double share = broken > 0.0 ? made_up / broken : 0.0;
+  if (share < kLeastFilled || share > kMostFilled) return;
+  fragment.open = mesh::submesh(matched, kept);
+  make_facets(fragment, *fragment.open, kind);
+  fragment.warnings.push_back(
+      fmt::format("{}: {:.0f} % of its breaks are smoother than the scan's noise, as where software closes "
+                  "holes, and are left out; export it without closing holes if joins are missing",
+                  fragment.path, 100.0 * share));
+}
+
 void doubt_table(Fragment& fragment) {
   const std::optional<mesh::Table> table = mesh::find_table(fragment.surface);
   if (!table) return;
@@ -204,10 +251,10 @@ Fragment prepare(std::string path, mesh::Mesh scan, const Context& context, mesh
   }
   clock.lap("pores");
   const mesh::Mesh& matched = noisy && !fragment.open ? even : open_surface(fragment);
-  fragment.coarse = matched.faces.size() > kCoarseFaces ? mesh::simplify(matched, kCoarseFaces) : matched;
-  fragment.middle = view_centre(fragment.coarse);
-  clock.lap("coarse");
-  fragment.facets = mesh::segment(matched, fragment.diameter, kind);
+  make_facets(fragment, matched, kind);
+  const std::vector<std::uint32_t> filled =
+      fragment.open ? std::vector<std::uint32_t>() : mesh::filled_holes(fragment.surface);
+  if (!filled.empty()) leave_out_filled_holes(fragment, matched, filled, kind);
   fragment.waviness = waviness(fragment.facets, fragment.diameter, fragment.resolution);
   fragment.least_extent = mesh::least_extent(fragment.facets.samples.points);
   fragment.sample_of_face = mesh::sample_of_faces(fragment.facets, fragment.coarse);

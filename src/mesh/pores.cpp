@@ -18,7 +18,7 @@ namespace rejoin::mesh {
 namespace {
 
 constexpr std::size_t kPorePlaces = 1000;
-constexpr std::size_t kDirections = 32;
+constexpr std::size_t kPoreDirections = 32;
 constexpr double kReach = 0.1;       // of the piece's size, in which directions end
 constexpr float kDeep = 0.4F;        // of the directions are free, at most, deep in a pore
 constexpr double kMostPores = 0.8;   // of the area is left out, at most: else it is no piece with pores
@@ -37,7 +37,7 @@ class Outside {
  public:
   Outside(const Mesh& mesh, double size)
       : scene_(mesh),
-        directions_(detail::half_sphere_directions(kDirections)),
+        directions_(detail::half_sphere_directions(kPoreDirections)),
         reach_(static_cast<float>(kReach * size)),
         start_(0.3F * static_cast<float>(resolution(mesh))) {}
 
@@ -51,7 +51,7 @@ class Outside {
     const glm::mat3 frame = detail::frame_about(normal);
     const auto free = std::ranges::count_if(
         directions_, [&](const glm::vec3& direction) { return shows(place, normal, frame * direction); });
-    return static_cast<float>(free) / static_cast<float>(kDirections);
+    return static_cast<float>(free) / static_cast<float>(kPoreDirections);
   }
 
  private:

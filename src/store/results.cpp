@@ -1,26 +1,18 @@
 #include "store/results.hpp"
 
 #include <fmt/format.h>
+#include <xxhash.h>
 
-#include <cstdint>
+#include <string>
 
 namespace rejoin::store {
-namespace {
-
-/// FNV-1a.
-std::uint64_t with(std::uint64_t hash, const std::string& text) {
-  constexpr std::uint64_t kPrime = 0x100000001b3;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * kPrime;
-  return hash;
-}
-
-}  // namespace
 
 std::string results_hash(const Run& run) {
-  std::uint64_t hash = 0xcbf29ce484222325;
+  XXH64_hash_t hash = 0;
   run.each_pair([&hash](const Pair& pair) {
-    hash = with(hash, fmt::format("{}/{}/{}/{}/{}/{}\n", pair.name_a, pair.name_b, name_of(pair.stage),
-                                  pair.score, pair.evidence, pair.verdict));
+    const std::string text = fmt::format("{}/{}/{}/{}/{}/{}\n", pair.name_a, pair.name_b, name_of(pair.stage),
+                                         pair.score, pair.evidence, pair.verdict);
+    hash = XXH3_64bits_withSeed(text.data(), text.size(), hash);  // of all before, too
   });
   return fmt::format("{:016x}", hash);
 }

@@ -61,8 +61,25 @@ TEST(Sizes, TheFewerOfTwoGroupsOfUnitsAreNamed) {
 TEST(Sizes, AScanOfAnOddUnitIsToldOnce) {
   for (const double unit : {10.0, 1000.0}) {
     const std::vector<store::Fragment> box = box_of({1, unit, 1});
-    EXPECT_EQ(doubts_about_units(box), std::vector<std::string>{told(odd_unit(box))}) << unit;
+    EXPECT_EQ(doubts_about_lengths(box), std::vector<std::string>{told(odd_unit(box))}) << unit;
   }
+}
+
+TEST(Sizes, ScansTooCoarseForTheWallsOfTheOthersAreNamed) {
+  std::vector<store::Fragment> box = box_of({1, 1, 1});
+  store::Fragment coarse = fragment("coarse", 90);
+  coarse.spacing = 5;
+  store::Fragment fine = coarse;
+  fine.name = "solid";
+  fine.spacing = 1;
+  box.push_back(coarse);
+  box.push_back(fine);
+  const std::vector<std::string> doubts = doubts_about_lengths(box);
+  ASSERT_EQ(doubts.size(), 1U);
+  EXPECT_EQ(doubts[0].find("coarse (diameter 90): taken for solid among sherds with walls 6 thick"), 0U)
+      << doubts[0];
+  box.push_back(coarse);  // as many solid pieces as sherds
+  EXPECT_TRUE(doubts_about_lengths(box).empty());
 }
 
 }  // namespace
