@@ -74,7 +74,7 @@ struct Fragment {
   std::vector<std::string>
       warnings;  ///< what was mended when its file was read, and what may keep joins from being found
   std::vector<StageTime>
-      stages;  ///< surface (of a cloud), flaps, smooth (of a noisy scan), pores, facets; load where a file was read
+      stages;  ///< surface (of a cloud), flaps, smooth (of a noisy scan), pores, coarse, facets; load where a file was read
 };
 
 /// What of a fragment others can touch.

@@ -123,11 +123,10 @@ void tell_pores(Fragment& fragment, double share) {
                   fragment.path, 100.0 * share));
 }
 
-/// \param matched  of which the fragment is made ready: its surface, smoothed or without pores
-void make_facets(Fragment& fragment, const mesh::Mesh& matched, mesh::PieceKind kind) {
+/// \param matched  of which the fragment is made ready: its surface, smoothed or without what cannot touch
+void make_coarse(Fragment& fragment, const mesh::Mesh& matched) {
   fragment.coarse = matched.faces.size() > kCoarseFaces ? mesh::simplify(matched, kCoarseFaces) : matched;
   fragment.middle = view_centre(fragment.coarse);
-  fragment.facets = mesh::segment(matched, fragment.diameter, kind);
 }
 
 double area_of(const mesh::Mesh& mesh, std::size_t face) {
@@ -158,7 +157,8 @@ void leave_out_filled_holes(Fragment& fragment, const mesh::Mesh& matched,
   const double share = broken > 0.0 ? made_up / broken : 0.0;
   if (share < kLeastFilled || share > kMostFilled) return;
   fragment.open = mesh::submesh(matched, kept);
-  make_facets(fragment, *fragment.open, kind);
+  make_coarse(fragment, *fragment.open);
+  fragment.facets = mesh::segment(*fragment.open, fragment.diameter, kind);
   fragment.warnings.push_back(
       fmt::format("{}: {:.0f} % of its breaks are smoother than the scan's noise, as where software closes "
                   "holes, and are left out; export it without closing holes if joins are missing",
@@ -251,7 +251,9 @@ Fragment prepare(std::string path, mesh::Mesh scan, const Context& context, mesh
   }
   clock.lap("pores");
   const mesh::Mesh& matched = noisy && !fragment.open ? even : open_surface(fragment);
-  make_facets(fragment, matched, kind);
+  make_coarse(fragment, matched);
+  clock.lap("coarse");
+  fragment.facets = mesh::segment(matched, fragment.diameter, kind);
   const std::vector<std::uint32_t> filled =
       fragment.open ? std::vector<std::uint32_t>() : mesh::filled_holes(fragment.surface);
   if (!filled.empty()) leave_out_filled_holes(fragment, matched, filled, kind);

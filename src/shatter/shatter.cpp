@@ -362,7 +362,7 @@ Shattered shatter(const std::string& name, const mesh::Mesh& object, const Optio
   require_closed(name, object);
   context.report("shatter", 0.0);
   const Breaker breaker(name, object, options, context);
-  if (context.cancelled()) return {{}, {}, 0.0, true};
+  if (context.cancelled()) return {{}, {}, 0.0, 0.0, true};
   Shattered result;
   result.diameter = breaker.diameter();
   Sides sides;
@@ -373,7 +373,7 @@ Shattered shatter(const std::string& name, const mesh::Mesh& object, const Optio
     const Grid grid{random_rotation(random), breaker.middle(), 1.1 * breaker.diameter(), breaker.spacing()};
     const Field field = [&breaker, k](const glm::dvec3& point) { return breaker.field(point, k); };
     const mesh::Mesh whole = surface_nets(field, grid, context);
-    if (context.cancelled()) return {{}, {}, 0.0, true};
+    if (context.cancelled()) return {{}, {}, 0.0, 0.0, true};
     if (whole.faces.empty())
       throw InputError(name, fmt::format("piece {} is smaller than the grid", k),
                        "ask for fewer pieces or a finer grid");
