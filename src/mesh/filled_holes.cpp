@@ -13,7 +13,7 @@ namespace rejoin::mesh {
 namespace {
 
 constexpr float kSmoother =
-    0.4F;  // than a quarter of the scan is, at most: noise alone makes 14 vertices in a row so
+    0.4F;  // than a quarter of the scan is, at most: noise alone makes few vertices in a row so
 constexpr std::size_t kLeastCore = 30;  // vertices
 constexpr int kRings = 2;               // about a vertex by which its roughness is told
 constexpr std::size_t kSmoothest = 4;   // one vertex in so many is smoother than the scan's noise

@@ -40,6 +40,7 @@ TEST(FilledHoles, AreSmootherThanTheScannersNoise) {
   const std::vector<std::uint32_t> found = filled_holes(mesh);
   ASSERT_FALSE(found.empty());
   const double cap = 2.0 * M_PI * kRadius * (kRadius - kHeight);
+  // At its border two rings tell the one side from the other.
   EXPECT_GT(area_above(mesh, found, kHeight), 0.85 * cap);
   EXPECT_LT(surface_area(submesh(mesh, found)), 1.15 * cap);
 }

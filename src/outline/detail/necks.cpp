@@ -1,12 +1,10 @@
 #include "outline/detail/necks.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
