@@ -16,7 +16,8 @@ namespace {
 
 constexpr double kLeastScore = 0.3;  // of the links that are combined
 constexpr std::size_t kPerPair = 2;
-constexpr std::size_t kMost = 1000;  // combinations that are aligned, or so many for each piece:
+constexpr std::size_t kMostAround = 50;  // links of a piece, the best: of many copies all fit all
+constexpr std::size_t kMost = 1000;      // combinations that are aligned, or so many for each piece:
 constexpr std::size_t kMostOfPiece = 8;
 constexpr double kLikely = 0.5;  // of what comes out
 
@@ -25,6 +26,12 @@ using Key = std::pair<std::size_t, std::size_t>;
 /// The same join seen from the other side.
 Link turned(const Link& link) {
   return {link.b, link.a, inverse(link.pose), link.score, link.holds, link.slides};
+}
+
+/// Best first.
+void sort_by_score(std::vector<Link>& links) {
+  std::stable_sort(links.begin(), links.end(),
+                   [](const Link& x, const Link& y) { return x.score > y.score; });
 }
 
 /// The best links of each pair, a < b.
@@ -36,8 +43,7 @@ std::map<Key, std::vector<Link>> best_links(const std::vector<Link>& links) {
                                                                                            : turned(link));
   }
   for (auto& [key, list] : result) {
-    std::stable_sort(list.begin(), list.end(),
-                     [](const Link& x, const Link& y) { return x.score > y.score; });
+    sort_by_score(list);
     if (list.size() > kPerPair) list.resize(kPerPair);
   }
   return result;
@@ -58,7 +64,11 @@ std::vector<Guess> combinations(const std::vector<Link>& links, std::size_t piec
     }
   }
   std::vector<Guess> result;
-  for (const auto& around : from) {
+  for (auto& around : from) {
+    if (around.size() > kMostAround) {
+      sort_by_score(around);
+      around.resize(kMostAround);
+    }
     for (const Link& x : around) {
       for (const Link& y : around) {
         if (x.b >= y.b) continue;

@@ -55,6 +55,7 @@ ordered_json truth_json(const std::string& solid, const shatter::Options& option
           {"noise", options.noise * shattered.diameter},
           {"correlated", options.correlated * shattered.diameter},
           {"wavelength", options.wavelength * shattered.diameter},
+          {"closed", options.closed},
           {"spacing", options.spacing * shattered.diameter},
           {"version", kVersion},
           {"fragments", fragments},
@@ -82,6 +83,8 @@ class ShatterCommand final : public Command {
     add_number(app, "--noise", noise_, {0, 1}, "deviation of the scanner, 0 to 1 (0.01)");
     add_number(app, "--correlated", correlated_, {0, 1}, "deviation that near points share, 0 to 1 (0)");
     add_number(app, "--wavelength", wavelength_, {0.1, 50}, "of that deviation, 0.1 to 50 (2)");
+    add_number(app, "--closed-holes", closed_, {0, 90},
+               "percent of breaks not seen, closed smoothly, 0 to 90 (0)");
     add_number(app, "--spacing", spacing_, {0.05, 5}, "edge length of the meshes, 0.05 to 5 (0.4)");
   }
 
@@ -91,6 +94,7 @@ class ShatterCommand final : public Command {
     options_.noise = noise_ / 100.0;
     options_.correlated = correlated_ / 100.0;
     options_.wavelength = wavelength_ / 100.0;
+    options_.closed = closed_ / 100.0;
     options_.spacing = spacing_ / 100.0;
     const mesh::Loaded loaded = mesh::load(path_, mesh::Weld::Places, mesh::Content::Whole);
     for (const std::string& warning : loaded.warnings) console.warning(warning);
@@ -129,6 +133,7 @@ class ShatterCommand final : public Command {
   double noise_ = 0.01;
   double correlated_ = 0.0;
   double wavelength_ = 2.0;
+  double closed_ = 0.0;
   double spacing_ = 0.4;
   shatter::Options options_;
 };

@@ -93,10 +93,10 @@ void doubt_several_bodies(Fragment& fragment) {
   std::string list;
   for (const double share : shares)
     list += fmt::format("{}{:.0f} %", list.empty() ? "" : ", ", 100.0 * share);
-  fragment.warnings.push_back(fmt::format(
-      "{}: holds {} bodies side by side ({} of its area) and is matched as one piece: if they are "
-      "several, give each a file of its own (rejoin split)",
-      fragment.path, shares.size(), list));
+  fragment.warnings.push_back(
+      fmt::format("{}: holds {} bodies ({} of its area) and is matched as one piece: if they are "
+                  "several, give each a file of its own (rejoin split)",
+                  fragment.path, shares.size(), list));
 }
 
 /// What hangs on a piece lies in its neighbours as soon as they are put together.

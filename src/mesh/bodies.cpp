@@ -41,7 +41,7 @@ std::vector<double> bodies(const Mesh& mesh) {
   Components together(blocks.size());
   for (std::uint32_t a = 0; a < blocks.size(); ++a) {
     for (std::uint32_t b = 0; b < a; ++b) {
-      if (!apart[a][b]) together.unite(a, b);
+      if (!apart[a][b] && !detail::are_two_closed(blocks[a], blocks[b])) together.unite(a, b);
     }
   }
   std::vector<double> shares(blocks.size(), 0.0);

@@ -15,6 +15,7 @@
 #include "mesh/point_index.hpp"
 #include "mesh/ray_scene.hpp"
 #include "shatter/chip_count.hpp"
+#include "shatter/closed_holes.hpp"
 #include "shatter/cracks.hpp"
 #include "shatter/sites.hpp"
 #include "shatter/surface_nets.hpp"
@@ -340,6 +341,15 @@ Deviation deviation_of(const Options& options, double diameter, std::uint64_t se
            .finest = 0.9 * wavelength}};
 }
 
+/// Whether vertices of piece k, in the object's frame, lie on its breaks.
+std::vector<std::uint8_t> on_breaks(const Breaker& breaker, const mesh::Mesh& piece, std::size_t k) {
+  std::vector<std::uint8_t> result(piece.vertices.size());
+  std::transform(piece.vertices.begin(), piece.vertices.end(), result.begin(), [&](const glm::vec3& v) {
+    return breaker.behind(piece.origin + glm::dvec3(v), k) >= 0 ? std::uint8_t{1} : std::uint8_t{0};
+  });
+  return result;
+}
+
 /// Moves a piece to a pose of its own and adds the scanner's noise.
 Piece scanned(mesh::Mesh piece, const Deviation& deviation, double reach, Random& random) {
   mesh::compute_normals(piece);
@@ -383,6 +393,10 @@ Shattered shatter(const std::string& name, const mesh::Mesh& object, const Optio
     add_sides(breaker, piece.mesh, k, sides);
     const Deviation deviation = deviation_of(options, breaker.diameter(), options.seed + 1000 + k);
     result.pieces.push_back(scanned(piece.mesh, deviation, breaker.diameter(), random));
+    if (options.closed > 0.0) {
+      close_holes(result.pieces.back().scan, on_breaks(breaker, piece.mesh, k), options.closed,
+                  options.hole_size * breaker.diameter(), random);
+    }
     context.report("shatter", static_cast<double>(k + 1) / options.pieces);
   }
   result.lost = volume > 0.0 ? lost / volume : 0.0;

@@ -24,6 +24,8 @@ struct Options {
   double correlated =
       0.0;  ///< standard deviation of the error that near points share, along the normal, as of photographs
   double wavelength = 0.02;  ///< of that: points half of it apart share 0.4 of it
+  double closed = 0.0;       ///< share of the breaks that was not seen: holes that membranes close
+  double hole_size = 0.05;   ///< radius of the largest such hole
   double spacing = 0.004;    ///< edge length of the fragments' meshes
 };
 

@@ -53,15 +53,11 @@ class Promising : public ::testing::Test {
   fs::path home_;
 };
 
-TEST_F(Promising, PairsAloneAreSearchedInFullInFoldersOfManyScans) {
-  const auto stages = run_of(2);
-  EXPECT_EQ(stages.at("a7.ply+a8.ply"), store::Stage::Sweep);
-  EXPECT_EQ(stages.at("a7.ply+b7.ply"), store::Stage::Match);
-}
-
 TEST_F(Promising, PairsThatEndedAmongManyScansAreSearchedInFullAmongFew) {
   add("b8.ply", match::testing::planted_pair(8, kCells).b);
-  ASSERT_EQ(run_of(3).at("a7.ply+a8.ply"), store::Stage::Sweep);
+  const auto among_many = run_of(3);
+  EXPECT_EQ(among_many.at("a7.ply+b7.ply"), store::Stage::Match) << "as it is promising";
+  ASSERT_EQ(among_many.at("a7.ply+a8.ply"), store::Stage::Sweep);
   fs::remove(home_ / "scans/b8.ply");
   const auto now = run_of(3);
   EXPECT_EQ(now.at("a7.ply+a8.ply"), store::Stage::Match);

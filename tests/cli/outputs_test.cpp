@@ -54,6 +54,24 @@ class Outputs : public ::testing::Test, protected PlantedFiles {
   const std::string run_ = folder / "run";
 };
 
+/// An OBJ of cubes whose edges are 1 long, at some x.
+std::string boxes(const std::vector<double>& places) {
+  std::string text;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    for (int corner = 0; corner < 8; ++corner)
+      text += "v " + std::to_string(places[k] + (corner & 1)) + " " + std::to_string(corner >> 1 & 1) + " " +
+              std::to_string(corner >> 2) + "\n";
+    for (const auto& face : {"0 2 3", "0 3 1", "4 5 7", "4 7 6", "0 1 5", "0 5 4", "2 6 7", "2 7 3", "0 4 6",
+                             "0 6 2", "1 3 7", "1 7 5"}) {
+      text += "f";
+      for (const int at : {0, 2, 4})
+        text += " " + std::to_string(8 * k + 1 + static_cast<std::size_t>(face[at] - '0'));
+      text += "\n";
+    }
+  }
+  return text;
+}
+
 TEST_F(Outputs, NoPageOrAssemblyReplacesAFileOfTheRunOrAScan) {
   for (const char* name : {"/run.sqlite", "/pairs.csv", "/assembly.json", "/fragments/x.drc"})
     expect_refused({"report", run_, "--out", run_ + name}, run_ + name, "belongs to the run");
@@ -117,17 +135,23 @@ TEST_F(Outputs, FolderThatWasMadeForNothingGoesAgain) {
 }
 
 TEST_F(Outputs, AssembleReplacesModelsOfAnAssemblyAlone) {
-  const std::string scan = folder / "assembled.ply";
+  const fs::path scans = folder / "boxes";
+  fs::create_directory(scans);
+  write_file(scans / "a.obj", boxes({0.0}));
+  write_file(scans / "b.obj", boxes({9.0}));
+  const std::string wishes = folder / "wishes.json";
+  write_file(wishes, R"({"poses": {"a.obj": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}})");
+  const std::string scan = scans / "assembled.ply";
   write_file(scan, "precious");
-  const Finished refused = run({"assemble", folder / "", "--out", folder / ""});
+  const Finished refused = run({"assemble", scans, "--out", scans, "--constraints", wishes});
   EXPECT_EQ(refused.exit_code, 1);
   EXPECT_NE(refused.err.find("assembled.ply: is of no earlier rejoin assemble"), std::string::npos)
       << refused.err;
   EXPECT_TRUE(is_one_line(refused.err)) << refused.err;
   EXPECT_EQ(read_file(scan), "precious");
-  fs::create_directory(folder / "cloudcompare");
-  write_file(folder / "cloudcompare/a.ply.txt", "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
-  const Finished again = run({"assemble", folder / "", "--out", folder / ""});
+  fs::create_directory(scans / "cloudcompare");
+  write_file(scans / "cloudcompare/a.obj.txt", "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+  const Finished again = run({"assemble", scans, "--out", scans, "--constraints", wishes});
   EXPECT_EQ(again.exit_code, 0) << again.err;
   EXPECT_NE(read_file(scan), "precious");
 }
@@ -148,19 +172,7 @@ std::string told_of_limit(int blocks, const std::string& arguments) {
 
 // Its picture alone is too large.
 TEST_F(Outputs, OutputsOfOptionsInAFolderOfPiecesGoAsWell) {
-  std::string text;
-  for (const double x : {0.0, 9.0})
-    for (int corner = 0; corner < 8; ++corner)
-      text += "v " + std::to_string(x + (corner & 1)) + " " + std::to_string(corner >> 1 & 1) + " " +
-              std::to_string(corner >> 2) + "\n";
-  for (const int first : {1, 9})
-    for (const auto& face : {"0 2 3", "0 3 1", "4 5 7", "4 7 6", "0 1 5", "0 5 4", "2 6 7", "2 7 3", "0 4 6",
-                             "0 6 2", "1 3 7", "1 7 5"}) {
-      text += "f";
-      for (const int at : {0, 2, 4}) text += " " + std::to_string(first + face[at] - '0');
-      text += "\n";
-    }
-  write_file(folder / "two.obj", text);
+  write_file(folder / "two.obj", boxes({0.0, 9.0}));
   const std::string pieces = folder / "two";
   fs::create_directory(pieces);
   const std::string arguments = "split " + (folder / "two.obj") + " --table no --out " + pieces + " --json " +

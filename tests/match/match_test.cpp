@@ -95,7 +95,7 @@ TEST(Prepare, TellsOfTwoBodiesAndOfATable) {
   for (const glm::uvec3& face : block.faces) two.faces.push_back(face + first);
   const Fragment several = prepare("two", two, Context{});
   ASSERT_EQ(several.warnings.size(), 1U);
-  EXPECT_EQ(several.warnings[0].find("two: holds 2 bodies side by side (50 %, 50 % of its area)"), 0U)
+  EXPECT_EQ(several.warnings[0].find("two: holds 2 bodies (50 %, 50 % of its area)"), 0U)
       << several.warnings[0];
   EXPECT_NE(several.warnings[0].find("rejoin split"), std::string::npos) << several.warnings[0];
 

@@ -48,6 +48,11 @@ TEST(Bodies, ThreeWithOneInAnotherAreTwo) {
   EXPECT_NEAR(shares[0], 625.0 / 725.0, 0.01);
 }
 
+TEST(Bodies, ClosedOnesThatCrossAreTwo) {
+  const Mesh stand = moved(test::box({30, 30, 5}, 8), {3, 2, 28});
+  EXPECT_EQ(bodies(together(test::icosphere(30, 3), stand)).size(), 2U);
+}
+
 TEST(Bodies, SidesOfOneSherdAreOne) {
   const Mesh shell = test::icosphere(60, 4);
   Mesh inner = side(shell, {0, 0, 1});

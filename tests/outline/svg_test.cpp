@@ -63,6 +63,9 @@ TEST_F(Svg, ShapesThatAreNotSeenAreLeftOut) {
                "1 shape left out as hidden");
   expect_shape("invisible", "<g visibility='hidden'>" + big + "<g visibility='visible'>" + shape + "</g></g>",
                "1 shape left out as hidden");
+  expect_shape("transparent", shape + "<g opacity='0'>" + big + "</g><g style='opacity: 0%'>" + big + "</g>",
+               "2 shapes left out as hidden");
+  expect_shape("faint", "<g opacity='.01'>" + shape + "</g>", "");
   for (const char* kind : {"defs", "symbol", "clipPath", "mask", "marker", "pattern"})
     expect_shape(kind, shape + "<" + kind + ">" + big + "</" + kind + ">", "");
   expect_shape("page", "<rect width='60' height='60'/>" + shape, "covers the page");

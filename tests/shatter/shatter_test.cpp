@@ -13,6 +13,7 @@
 #include "core/parallel.hpp"
 #include "mesh/load.hpp"
 #include "mesh/point_index.hpp"
+#include "mesh/rings.hpp"
 #include "shatter/division.hpp"
 #include "shatter/surface_nets.hpp"
 
@@ -35,6 +36,11 @@ Options coarse(int pieces) {
 
 Shattered broken_ball(const Options& options) {
   return shatter("ball", mesh::test::icosphere(static_cast<float>(kRadius), 4), options, Context());
+}
+
+/// A vertex of a piece in the object's frame.
+glm::vec3 at_home(const Piece& piece, const glm::vec3& vertex) {
+  return glm::vec3(piece.to_world(piece.scan.origin + glm::dvec3(vertex)));
 }
 
 double volume_of(const Shattered& shattered) {
@@ -68,6 +74,36 @@ TEST(Shatter, PiecesOfARoughScanLieInside) {
     EXPECT_LT(mesh::diameter(piece.scan), mesh::diameter(block));
   }
   EXPECT_LT(volume_of(shattered), mesh::test::volume(block));
+}
+
+TEST(Shatter, ClosedHolesAreSmoothAndCoverTheirShareOfTheBreaksAlone) {
+  Options options = coarse(4);
+  options.noise = 0.002;
+  const Shattered seen = broken_ball(options);
+  options.closed = 0.3;
+  options.hole_size = 0.2;
+  const Shattered unseen = broken_ball(options);
+  for (std::size_t k = 0; k < seen.pieces.size(); ++k) {
+    const Piece& whole = seen.pieces[k];
+    const Piece& holed = unseen.pieces[k];
+    ASSERT_EQ(whole.scan.faces, holed.scan.faces);
+    const mesh::Rings rings(holed.scan);
+    std::size_t inside = 0;
+    std::size_t moved = 0;
+    for (std::uint32_t v = 0; v < whole.scan.vertices.size(); ++v) {
+      if (glm::length(at_home(whole, whole.scan.vertices[v])) < static_cast<float>(0.9 * kRadius)) ++inside;
+      if (whole.scan.vertices[v] == holed.scan.vertices[v]) continue;
+      ++moved;
+      // A membrane at rest: every vertex in the middle of its ring.
+      glm::vec3 sum(0.0F);
+      for (const std::uint32_t beside : rings.of(v)) sum += holed.scan.vertices[beside];
+      const glm::vec3 middle = sum / static_cast<float>(rings.of(v).size());
+      EXPECT_LT(glm::distance(holed.scan.vertices[v], middle), 1e-3F * static_cast<float>(kRadius));
+      EXPECT_LT(glm::length(at_home(whole, whole.scan.vertices[v])), static_cast<float>(kRadius));
+    }
+    EXPECT_GT(moved, static_cast<std::size_t>(0.25 * static_cast<double>(inside))) << k;
+    EXPECT_LT(moved, static_cast<std::size_t>(0.6 * static_cast<double>(inside))) << k;
+  }
 }
 
 TEST(Shatter, WearAndChipsTakeVolumeAway) {
@@ -195,9 +231,6 @@ mesh::Mesh folded_sheet() {
 
 /// Area of a piece's faces that lie within reach of another piece, in the object's frame.
 double area_near(const Piece& piece, const Piece& other, double reach) {
-  const auto at_home = [](const Piece& of, const glm::vec3& point) {
-    return glm::vec3(of.to_world(of.scan.origin + glm::dvec3(point)));
-  };
   std::vector<glm::vec3> points;
   for (const glm::vec3& vertex : other.scan.vertices) points.push_back(at_home(other, vertex));
   const mesh::PointIndex index(points);

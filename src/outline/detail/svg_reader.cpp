@@ -50,6 +50,13 @@ glm::dmat3 placed_in(const ViewBox& box, const ViewBox& place) {
   return m;
 }
 
+/// Whether nothing shows of an element and all in it.
+bool is_transparent(const pugi::xml_node& node) {
+  const std::string opacity = property(node, "opacity");
+  const auto number = parse_numbers(std::string_view(opacity).substr(0, opacity.find('%')));
+  return number && number->size() == 1 && number->front() <= 0.0;
+}
+
 glm::dmat3 shift(const glm::dvec2& by) {
   glm::dmat3 m(1.0);
   m[2] = glm::dvec3(by, 1.0);
@@ -230,7 +237,7 @@ class SvgReader {
   }
 
   void enter(const pugi::xml_node& node, Scope& scope) const {
-    if (property(node, "display") == "none") scope.displayed = false;
+    if (property(node, "display") == "none" || is_transparent(node)) scope.displayed = false;
     const std::string visibility = property(node, "visibility");
     if (!visibility.empty() && visibility != "inherit")
       scope.visible = visibility != "hidden" && visibility != "collapse";

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <optional>
+#include <set>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,20 +21,30 @@ namespace {
 constexpr std::string_view kCssBlanks = " \t\r\n\f";
 constexpr std::string_view kImportant = "!important";
 
+/// What selectors look at.
+struct Element {
+  explicit Element(const pugi::xml_node& node) : name(local_name(node)), id(node.attribute("id").value()) {
+    std::istringstream words(node.attribute("class").value());
+    classes.insert(std::istream_iterator<std::string>(words), {});
+  }
+
+  std::string name;
+  std::string id;
+  std::set<std::string> classes;
+};
+
 /// "path.a.b#c": an element's name or none, and what it must be called besides.
 struct Selector {
   std::string name;
   std::vector<std::string> classes;
   std::vector<std::string> ids;
 
-  bool matches(const pugi::xml_node& node) const {
-    if (!name.empty() && name != local_name(node)) return false;
-    const std::string id = node.attribute("id").value();
-    if (std::ranges::any_of(ids, [&](const std::string& wanted) { return wanted != id; })) return false;
-    const std::string all = fmt::format(" {} ", node.attribute("class").value());
-    return std::ranges::all_of(classes, [&](const std::string& one) {
-      return all.find(fmt::format(" {} ", one)) != std::string::npos;
-    });
+  bool matches(const Element& element) const {
+    if (!name.empty() && name != element.name) return false;
+    if (std::ranges::any_of(ids, [&](const std::string& wanted) { return wanted != element.id; }))
+      return false;
+    return std::ranges::all_of(classes,
+                               [&](const std::string& one) { return element.classes.contains(one); });
   }
 
   std::array<std::size_t, 3> weight() const {
@@ -119,8 +132,9 @@ class Sheets {
   void apply(pugi::xml_node node) const {
     std::string before;
     std::string behind;
+    const Element element(node);
     for (const Rule& rule : rules_) {
-      if (!rule.selector.matches(node)) continue;
+      if (!rule.selector.matches(element)) continue;
       before += rule.usual;
       behind += rule.important;
     }
