@@ -158,7 +158,8 @@ void leave_out_filled_holes(Fragment& fragment, const mesh::Mesh& matched,
   if (share < kLeastFilled || share > kMostFilled) return;
   fragment.open = mesh::submesh(matched, kept);
   make_coarse(fragment, *fragment.open);
-  fragment.facets = mesh::segment(*fragment.open, fragment.diameter, kind);
+  const bool solid = fragment.facets.wall_thickness <= 0;  // with less of its breaks it may look like a sherd
+  fragment.facets = mesh::segment(*fragment.open, fragment.diameter, solid ? mesh::PieceKind::Solid : kind);
   fragment.warnings.push_back(
       fmt::format("{}: {:.0f} % of its breaks are smoother than the scan's noise, as where software closes "
                   "holes, and are left out; export it without closing holes if joins are missing",
