@@ -159,7 +159,7 @@ Components pieces_of(const std::vector<detail::Block>& blocks, const std::option
   return pieces;
 }
 
-/// The piece that a place is next to; the number of pieces where it is next to none.
+/// The piece that some place is next to; the number of pieces where none is next to any.
 class NearestPiece {
  public:
   NearestPiece(const Mesh& scan, const std::vector<Members>& pieces, double spacing)
@@ -173,9 +173,17 @@ class NearestPiece {
     index_ = PointIndex(points);
   }
 
-  std::size_t of(const glm::vec3& place) const {
-    const auto nearest = index_.nearest_within(place, reach_);
-    return nearest ? piece_of_[nearest->first] : none_;
+  /// By whichever of the places comes closest to a piece.
+  std::size_t of(const std::vector<glm::vec3>& places) const {
+    std::size_t piece = none_;
+    float least = reach_;
+    for (const glm::vec3& place : places) {
+      const auto nearest = index_.nearest_within(place, least);
+      if (!nearest) continue;
+      piece = piece_of_[nearest->first];
+      least = nearest->second;
+    }
+    return piece;
   }
 
  private:
@@ -279,7 +287,10 @@ class Rest {
     const NearestPiece nearest(scan_, pieces, spacing_);
     for (const std::size_t k : small) {
       const Members& members = members_[k];
-      const std::size_t piece = nearest.of(corners_of(members.front()).front());
+      std::vector<glm::vec3> places;
+      for (const std::uint32_t member : members)
+        std::ranges::copy(corners_of(member), std::back_inserter(places));
+      const std::size_t piece = nearest.of(places);
       if (piece < pieces.size()) {
         pieces[piece].insert(pieces[piece].end(), members.begin(), members.end());
         continue;

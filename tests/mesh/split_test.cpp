@@ -195,6 +195,19 @@ TEST(Split, CrumbsAreLeftOutAndCountedButNotWhatLiesAtAPiece) {
   EXPECT_EQ(mesh::split("scan", together(ball, far), all).pieces.size(), 2U);
 }
 
+// A patch that a crack parts from its piece begins, in some orders of its faces, at its far end.
+TEST(Split, APatchNearAPieceBelongsToItWhicheverOfItsFacesIsTheFirst) {
+  const Mesh ball = test::icosphere(30, 4);                  // points some 2 apart
+  Mesh patch = moved(test::box({12, 2, 2}, 6), {39, 0, 0});  // 3 off it, and its far end 15
+  for (int turn = 0; turn < 2; ++turn) {
+    const Split split = mesh::split("scan", together(ball, patch));
+    ASSERT_EQ(split.pieces.size(), 1U);
+    EXPECT_EQ(split.pieces[0].faces.size(), ball.faces.size() + patch.faces.size());
+    EXPECT_EQ(split.crumbs.parts, 0U);
+    for (glm::vec3& v : patch.vertices) v = glm::vec3(78.0F - v.x, v.y, -v.z);  // the other end first
+  }
+}
+
 TEST(Split, ATableThatIsAskedForMustBeThereAndSomethingMustStandOnIt) {
   SplitOptions must;
   must.table = SplitOptions::TableUse::Yes;
