@@ -86,6 +86,16 @@ void doubt_scans_from_one_side(Fragment& fragment, mesh::PieceKind kind) {
       fragment.path, 100.0 * unbacked));
 }
 
+/// A sherd of which the edges were not scanned joins nothing: without a word "no join" would tell of breaks that nobody saw.
+void doubt_missing_breaks(Fragment& fragment) {
+  const bool any = std::ranges::any_of(fragment.facets.facets, &mesh::Facet::fracture);
+  if (any || fragment.facets.wall_thickness <= 0) return;
+  fragment.warnings.push_back(fmt::format(
+      "{}: no break is seen on it, only the sides of its wall ({:.3g} thick), and nothing can join it: scan "
+      "its edges, too, or paint the breaks (rejoin facets)",
+      fragment.path, fragment.facets.wall_thickness));
+}
+
 /// Such a scan is matched as one piece.
 void doubt_several_bodies(Fragment& fragment) {
   const std::vector<double> shares = mesh::bodies(fragment.surface);
@@ -264,6 +274,7 @@ Fragment prepare(std::string path, mesh::Mesh scan, const Context& context, mesh
   doubt_coarse_walls(fragment);
   doubt_shapeless_points(fragment, noisy);
   doubt_scans_from_one_side(fragment, kind);
+  doubt_missing_breaks(fragment);
   doubt_several_bodies(fragment);
   doubt_table(fragment);
   clock.lap("facets");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "match/align.hpp"
 #include "match/match.hpp"
@@ -51,6 +52,31 @@ TEST(OpenScan, WallsGoOnThereWhereTheirOtherSideIsMissing) {
   ASSERT_FALSE(result.candidates.empty());
   EXPECT_LT(angle_between(result.candidates[0].pose, Rigid{}), 0.03);
   EXPECT_EQ(result.verdict, Verdict::Join);
+}
+
+// As of two scans, from above and from below, that were laid together.
+TEST(OpenScan, ASherdWithoutItsEdgesIsToldAsOneOnWhichNoBreakIsSeen) {
+  const shatter::Grid grid{.size = 2.4 * kHalfSherd.x, .spacing = 0.4};
+  const auto bent = [](const glm::dvec3& p) {
+    const double level = 0.01 * (p.x * p.x + p.y * p.y) - 2.0;
+    const glm::dvec3 off = glm::abs(glm::dvec3(p.x, p.y, p.z - level)) - kHalfSherd;
+    return std::max({off.x, off.y, off.z, p.x - crack_at(p.y)});
+  };
+  const auto told = [](const mesh::Mesh& scan) {
+    const Fragment sherd = prepare("sherd", scan, Context{});
+    EXPECT_GT(sherd.facets.wall_thickness, 3.0);
+    return std::ranges::any_of(sherd.warnings, [](const std::string& warning) {
+      return warning.find("no break is seen") != std::string::npos;
+    });
+  };
+  mesh::Mesh scan = shatter::surface_nets(bent, grid, Context{});
+  EXPECT_FALSE(told(scan));
+  std::erase_if(scan.faces, [&](const glm::uvec3& face) {
+    const glm::vec3& corner = scan.vertices[face.x];
+    const glm::vec3 across = glm::cross(scan.vertices[face.y] - corner, scan.vertices[face.z] - corner);
+    return std::abs(glm::normalize(across).z) < 0.6F;
+  });
+  EXPECT_TRUE(told(scan));
 }
 
 // At a pose at which it is turned over about the seam, walls lie on walls, but nothing goes on.
