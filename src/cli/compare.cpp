@@ -54,7 +54,9 @@ class CompareCommand final : public Command {
       require_writable_folder(*out_);
     }
     if (json_) require_writable_file(*json_);
-    const Rigid pose = read_pose(pose_, path_a_, path_b_);
+    std::string doubt;
+    const Rigid pose = read_pose(pose_, path_a_, path_b_, doubt);
+    if (!doubt.empty()) console.warning(doubt);
     match::Fragment a = load_fragment(path_a_, console, context, kind_of(solid_));
     match::Fragment b = load_fragment(path_b_, console, context, kind_of(solid_));
     use_painted_facets(painted_, {&a, &b}, console);

@@ -129,7 +129,9 @@ class MatchCommand final : public Command {
     match::Options options = options_.values();
     require_free_search(options);
     require_two_files(path_a_, path_b_);
-    if (near_) options.near = read_pose(*near_, path_a_, path_b_);
+    std::string doubt;
+    if (near_) options.near = read_pose(*near_, path_a_, path_b_, doubt);
+    if (!doubt.empty()) console.warning(doubt);
     if (out_) require_out();  // first, for --json may lie in it
     if (json_) require_writable_file(*json_);
     match::Fragment a = load_fragment(path_a_, console, context, kind_of(solid_));

@@ -92,11 +92,13 @@ int in_common(const std::string& a, const std::string& b) {
   return std::max(names_in_common(real(a), real(b)), names_in_common(written(a), written(b)));
 }
 
-/// Whether a match's JSON tells of A as B and of B as A.  Where the files' names are the same their folders tell; a match may have been
-/// made in another folder, or its files have moved.
-/// \throws InputError they do not tell
-bool is_of_swapped(const std::string& path, const ordered_json& json, const std::string& path_a,
-                   const std::string& path_b) {
+/// Of which files a match's JSON tells.
+enum class OfPair { AsGiven, Swapped, Others };
+
+/// Where the files' names are the same their folders tell; a match may have been made in another folder, or its files have moved.
+/// \return AsGiven too if it tells none, or one alone   \throws InputError they do not tell
+OfPair pair_of(const std::string& path, const ordered_json& json, const std::string& path_a,
+               const std::string& path_b) {
   const auto agreement = [&](const std::string& a, const std::string& b) {
     const int of_a = in_common(told_path(json, "a"), a);
     const int of_b = in_common(told_path(json, "b"), b);
@@ -109,7 +111,9 @@ bool is_of_swapped(const std::string& path, const ordered_json& json, const std:
         path, fmt::format("does not tell which {} is A", fs::path(path_a).filename().string()),
         "give both paths as they were given to rejoin match, or the four rows of the pose alone");
   }
-  return swapped > as_given;
+  if (swapped > as_given) return OfPair::Swapped;
+  const bool tells = !told_path(json, "a").empty() && !told_path(json, "b").empty();
+  return tells && as_given == 0 ? OfPair::Others : OfPair::AsGiven;
 }
 
 /// The file's pose, and its JSON.
@@ -134,9 +138,15 @@ Rigid read_pose(const std::string& path) {
   return pose_and_json(path).first;
 }
 
-Rigid read_pose(const std::string& path, const std::string& path_a, const std::string& path_b) {
+Rigid read_pose(const std::string& path, const std::string& path_a, const std::string& path_b,
+                std::string& doubt) {
   const auto [pose, json] = pose_and_json(path);
-  return is_of_swapped(path, json, path_a, path_b) ? inverse(pose) : pose;
+  const OfPair pair = pair_of(path, json, path_a, path_b);
+  if (pair == OfPair::Others) {
+    doubt = fmt::format("{}: is the pose of {} and {}; is it of these two?", path, told_path(json, "a"),
+                        told_path(json, "b"));
+  }
+  return pair == OfPair::Swapped ? inverse(pose) : pose;
 }
 
 }  // namespace rejoin::cli

@@ -15,8 +15,10 @@ Rigid read_pose(const std::string& path);
 
 /// The same for a pair, B -> A: the JSON of a match of B and A is turned round, by their files' names, and by their folders where these
 /// are the same.
+/// \param[out] doubt  what to tell if that JSON is of two other files; empty: nothing
 /// \throws InputError also if the JSON is of two files of one name and its folders do not tell which of them is A
-Rigid read_pose(const std::string& path, const std::string& path_a, const std::string& path_b);
+Rigid read_pose(const std::string& path, const std::string& path_a, const std::string& path_b,
+                std::string& doubt);
 
 /// Sixteen numbers as four rows, as they are in files of poses; a discarded value if the text is anything else.
 nlohmann::ordered_json rows_of_numbers(const std::string& text);

@@ -119,12 +119,14 @@ TEST(ReadPose, MayHaveThreeDecimals) {
 TEST(ReadPose, OfAMatchIsTurnedRoundByItsPathsWhereNamesAreTheSame) {
   const TemporaryFolder folder;
   const std::string file = folder / "match.json";
+  std::string doubt;
   const auto shift = [&](const std::string& told_a, const std::string& told_b, const std::string& a,
                          const std::string& b) {
     write_file(file, fmt::format(R"({{"a": {{"path": "{}"}}, "b": {{"path": "{}"}},
         "pose": [[1, 0, 0, 5], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}})",
                                  told_a, told_b));
-    return read_pose(file, a, b).translation.x;
+    doubt.clear();
+    return read_pose(file, a, b, doubt).translation.x;
   };
   const std::string one = folder / "one/model.drc";
   const std::string two = folder / "two/model.drc";
@@ -139,7 +141,9 @@ TEST(ReadPose, OfAMatchIsTurnedRoundByItsPathsWhereNamesAreTheSame) {
   // Names alone, of which one that is not the same tells enough.
   EXPECT_EQ(shift("x/a.ply", "x/b.ply", "y/a.ply", "z/b.ply"), 5);
   EXPECT_EQ(shift("x/a.ply", "x/b.ply", "y/b.ply", "z/a.ply"), -5);
+  EXPECT_EQ(doubt, "");
   EXPECT_EQ(shift("x/c.ply", "x/d.ply", "y/b.ply", "z/a.ply"), 5) << "of others, as a rough pose may be";
+  EXPECT_EQ(doubt, file + ": is the pose of x/c.ply and x/d.ply; is it of these two?");
   try {
     shift(one, two, "/elsewhere/three/model.drc", "/elsewhere/four/model.drc");
     FAIL();
