@@ -83,8 +83,7 @@ class ShatterCommand final : public Command {
     add_number(app, "--noise", noise_, {0, 1}, "deviation of the scanner, 0 to 1 (0.01)");
     add_number(app, "--correlated", correlated_, {0, 1}, "deviation that near points share, 0 to 1 (0)");
     add_number(app, "--wavelength", wavelength_, {0.1, 50}, "of that deviation, 0.1 to 50 (2)");
-    add_number(app, "--closed-holes", closed_, {0, 90},
-               "percent of breaks not seen, closed smoothly, 0 to 90 (0)");
+    add_number(app, "--closed-holes", closed_, {0, 90}, "percent of breaks, closed smoothly, 0 to 90 (0)");
     add_number(app, "--spacing", spacing_, {0.05, 5}, "edge length of the meshes, 0.05 to 5 (0.4)");
   }
 
