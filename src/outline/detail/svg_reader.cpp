@@ -11,6 +11,7 @@
 #include "core/words.hpp"
 #include "outline/detail/readers.hpp"
 #include "outline/detail/svg_element.hpp"
+#include "outline/detail/svg_path.hpp"
 #include "outline/detail/svg_sheet.hpp"
 #include "outline/outline.hpp"
 #include "outline/polygon.hpp"
