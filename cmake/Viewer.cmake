@@ -32,4 +32,5 @@ function(rejoin_embed_viewer target folder)
     COMMENT "Bundling the viewer"
     VERBATIM)
   target_sources(${target} PRIVATE ${output})
+  set_source_files_properties(${output} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)  # nobody lints half a megabyte of text
 endfunction()
