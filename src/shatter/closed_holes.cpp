@@ -39,22 +39,20 @@ void relax(mesh::Mesh& scan, const std::vector<std::uint32_t>& patches, const me
 
 }  // namespace
 
-void close_holes(mesh::Mesh& scan, const std::vector<std::uint8_t>& open, double share, double radius,
+void close_holes(mesh::Mesh& scan, std::vector<std::uint8_t> open, double share, double radius,
                  Random& random) {
   std::vector<std::uint32_t> left;
   for (std::uint32_t v = 0; v < open.size(); ++v)
     if (open[v] != 0) left.push_back(v);
   const auto wanted = static_cast<std::size_t>(share * static_cast<double>(left.size()));
   const mesh::Rings rings(scan);
-  std::vector<std::uint8_t> may_lie = open;
   std::vector<std::uint32_t> patches;
   while (patches.size() < wanted) {
     std::uint32_t& drawn = left[random.below(static_cast<std::uint32_t>(left.size()))];
     const std::uint32_t middle = drawn;
     drawn = left.back();
     left.pop_back();
-    if (may_lie[middle] != 0)
-      add_patch(middle, radius * random.uniform(0.5, 1.0), scan, rings, may_lie, patches);
+    if (open[middle] != 0) add_patch(middle, radius * random.uniform(0.5, 1.0), scan, rings, open, patches);
   }
   relax(scan, patches, rings);
 }

@@ -8,6 +8,7 @@
 #include "core/random.hpp"
 #include "match/match.hpp"
 #include "planted_block.hpp"
+#include "shatter/shatter.hpp"
 
 namespace rejoin::match {
 namespace {
@@ -105,6 +106,34 @@ TEST(FilledHoles, OfBreaksAreLeftOutAndToldAndThePiecesJoin) {
   EXPECT_LT(angle_between(off, Rigid{}), 0.5 * kDegree);
   EXPECT_LT(glm::length(off(glm::dvec3(0.0))), 0.2);
   EXPECT_EQ(result.verdict, Verdict::Join);
+}
+
+mesh::Mesh slab() {
+  mesh::Mesh mesh;
+  for (int corner = 0; corner < 8; ++corner)
+    mesh.vertices.emplace_back(110 * (corner & 1), 80 * (corner >> 1 & 1), 24 * (corner >> 2));
+  mesh.faces = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  return mesh;
+}
+
+// With less of its breaks a piece has more of its surface in parallel faces, as sherds have.
+TEST(FilledHoles, LeftOutOfASolidPieceMakeNoSherdOfIt) {
+  shatter::Options options;
+  options.pieces = 6;
+  options.seed = 3;
+  options.noise = 0.0003;
+  options.spacing = 0.007;
+  const Context context;
+  const shatter::Shattered seen = shatter::shatter("slab", slab(), options, context);
+  options.closed = 0.3;
+  const shatter::Shattered closed = shatter::shatter("slab", slab(), options, context);
+  for (std::size_t k = 0; k < closed.pieces.size(); ++k) {
+    const Fragment whole = prepare("whole", seen.pieces[k].scan, context);
+    const Fragment holed = prepare("holed", closed.pieces[k].scan, context);
+    EXPECT_TRUE(holed.open) << k;
+    EXPECT_EQ(whole.facets.wall_thickness > 0.0, holed.facets.wall_thickness > 0.0) << k;
+  }
 }
 
 }  // namespace

@@ -101,6 +101,7 @@ TEST(Shatter, ClosedHolesAreSmoothAndCoverTheirShareOfTheBreaksAlone) {
       EXPECT_LT(glm::distance(holed.scan.vertices[v], middle), 1e-3F * static_cast<float>(kRadius));
       EXPECT_LT(glm::length(at_home(whole, whole.scan.vertices[v])), static_cast<float>(kRadius));
     }
+    // The last patch may exceed the share, and breaks reach farther out than what is counted as inside.
     EXPECT_GT(moved, static_cast<std::size_t>(0.25 * static_cast<double>(inside))) << k;
     EXPECT_LT(moved, static_cast<std::size_t>(0.6 * static_cast<double>(inside))) << k;
   }
