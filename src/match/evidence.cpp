@@ -87,8 +87,7 @@ class Look {
     const std::vector<double> heights =
         heights_above_quadric(contact.core, glm::normalize(contact.normal), kQuadricRounds);
     const std::array radii{kScales[0] * lengths_.patch, kScales[1] * lengths_.patch};
-    const std::vector<double> relief = detail::variances_by_scale(contact.core, heights, radii);
-    const std::vector<double> gaps = detail::variances_by_scale(contact.core, contact.core_gaps, radii);
+    const auto [relief, gaps] = detail::variances_by_scale(contact.core, {heights, contact.core_gaps}, radii);
     const double noise = lengths_.noise * lengths_.noise;
     const double spread = robust_deviation(gaps_above_quadric(contact));
     const double drift = gaps.front() > 0.0 ? spread / std::sqrt(gaps.front()) : 1.0;

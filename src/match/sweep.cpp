@@ -234,17 +234,16 @@ std::vector<int> unworn(const mesh::Segmentation& s, const std::vector<int>& fac
   std::vector<int> rest = facet_of_face;
   std::vector<std::size_t> all(s.facets.size(), 0);
   std::vector<std::size_t> left(s.facets.size(), 0);
-  std::vector<std::uint32_t> near;
   for (std::size_t f = 0; f < rest.size(); ++f) {
     if (rest[f] < 0) continue;
     const auto facet = static_cast<std::size_t>(rest[f]);
     if (!s.facets[facet].fracture) continue;
     ++all[facet];
-    near_walls.of(s.samples.points[static_cast<std::size_t>(sample_of_face[f])], near);
-    if (near.empty()) {
-      ++left[facet];
-    } else {
+    const glm::vec3& point = s.samples.points[static_cast<std::size_t>(sample_of_face[f])];
+    if (near_walls.any(point, [](std::uint32_t) { return true; })) {
       rest[f] = -1;
+    } else {
+      ++left[facet];
     }
   }
   for (std::size_t f = 0; f < rest.size(); ++f) {

@@ -48,19 +48,7 @@ glm::ivec3 Neighbours::cell_of(const glm::vec3& point) const {
 
 void Neighbours::of(const glm::vec3& point, std::vector<std::uint32_t>& found) const {
   found.clear();
-  const glm::ivec3 middle = cell_of(point);
-  const glm::ivec3 from = glm::max(middle - 1, 0);
-  const glm::ivec3 to = glm::min(middle + 1, cells_ - 1);
-  if (from.x > to.x) return;
-  for (int z = from.z; z <= to.z; ++z) {
-    for (int y = from.y; y <= to.y; ++y) {
-      const std::uint32_t end = first_[place_of(to.x, y, z) + 1];
-      for (std::uint32_t k = first_[place_of(from.x, y, z)]; k < end; ++k) {
-        const glm::vec3 off = point - points_[k];
-        if (off.x * off.x + off.y * off.y + off.z * off.z < squared_radius_) found.push_back(numbers_[k]);
-      }
-    }
-  }
+  each(point, [&](std::uint32_t k) { found.push_back(k); });
   std::sort(found.begin(), found.end());
 }
 

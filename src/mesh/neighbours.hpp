@@ -20,6 +20,35 @@ class Neighbours {
   /// Numbers of all points closer than the radius, in ascending order.
   void of(const glm::vec3& point, std::vector<std::uint32_t>& found) const;
 
+  /// Calls `visit(number)` for all points closer than the radius, in the order of their cells: faster where the order does not matter.
+  template <typename Visit>
+  void each(const glm::vec3& point, Visit&& visit) const {
+    any(point, [&](std::uint32_t k) {
+      visit(k);
+      return false;
+    });
+  }
+
+  /// Whether `holds(number)` for some point closer than the radius.
+  template <typename Holds>
+  bool any(const glm::vec3& point, Holds&& holds) const {
+    const glm::ivec3 middle = cell_of(point);
+    const glm::ivec3 from = glm::max(middle - 1, 0);
+    const glm::ivec3 to = glm::min(middle + 1, cells_ - 1);
+    if (from.x > to.x) return false;
+    for (int z = from.z; z <= to.z; ++z) {
+      for (int y = from.y; y <= to.y; ++y) {
+        const std::uint32_t end = first_[place_of(to.x, y, z) + 1];
+        for (std::uint32_t k = first_[place_of(from.x, y, z)]; k < end; ++k) {
+          const glm::vec3 off = point - points_[k];
+          if (off.x * off.x + off.y * off.y + off.z * off.z < squared_radius_ && holds(numbers_[k]))
+            return true;
+        }
+      }
+    }
+    return false;
+  }
+
  private:
   glm::ivec3 cell_of(const glm::vec3& point) const;
   std::size_t place_of(int x, int y, int z) const {

@@ -29,6 +29,13 @@ void expect_answers_of_point_index(const std::vector<glm::vec3>& points, float r
       index.within(asked, radius, expected);
       neighbours.of(asked, found);
       ASSERT_EQ(found, expected) << "point " << k << ", radius " << radius;
+      found.clear();
+      neighbours.each(asked, [&](std::uint32_t n) { found.push_back(n); });
+      std::sort(found.begin(), found.end());
+      ASSERT_EQ(found, expected);
+      std::size_t seen = 0;
+      EXPECT_EQ(neighbours.any(asked, [&](std::uint32_t) { return ++seen == 2; }), expected.size() > 1);
+      EXPECT_EQ(seen, std::min<std::size_t>(2, expected.size()));
       all += found.size();
     }
   }

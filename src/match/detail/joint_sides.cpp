@@ -32,7 +32,6 @@ Side side_of(const mesh::Segmentation& s, double edge_radius) {
   side.body_index = std::make_unique<mesh::PointIndex>(side.body.points);
   const mesh::Neighbours neighbours(side.body.points, static_cast<float>(edge_radius));
   side.broken_of_facet.resize(s.facets.size() + s.creased.facets.size());
-  std::vector<std::uint32_t> near;
   for (std::size_t i = 0; i < s.samples.size(); ++i) {
     if (s.surface[i] != mesh::Surface::Fracture) continue;
     const auto number = static_cast<std::uint32_t>(side.broken.points.size());
@@ -48,10 +47,8 @@ Side side_of(const mesh::Segmentation& s, double edge_radius) {
     side.broken.normals.push_back(s.normals[i]);
     side.broken.areas.push_back(s.samples.areas[i]);
     side.broken.backed.push_back(s.backed[i]);
-    neighbours.of(s.samples.points[i], near);
-    side.broken.edge.push_back(std::any_of(near.begin(), near.end(), [&](std::uint32_t k) {
-      return s.facet_of_sample[k] != s.facet_of_sample[i];
-    }));
+    side.broken.edge.push_back(neighbours.any(
+        s.samples.points[i], [&](std::uint32_t k) { return s.facet_of_sample[k] != s.facet_of_sample[i]; }));
   }
   side.broken_index = std::make_unique<mesh::PointIndex>(side.broken.points);
   if (s.wall_thickness > 0) {

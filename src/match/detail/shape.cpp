@@ -64,23 +64,29 @@ std::vector<double> heights_above_quadric(const std::vector<glm::dvec3>& points,
   return rest;
 }
 
-std::vector<double> variances_by_scale(const std::vector<glm::dvec3>& points,
-                                       const std::vector<double>& values, std::span<const double> radii) {
+std::array<std::vector<double>, 2> variances_by_scale(const std::vector<glm::dvec3>& points,
+                                                      const std::array<std::span<const double>, 2>& values,
+                                                      std::span<const double> radii) {
   const std::vector<glm::vec3> places(points.begin(), points.end());
-  std::vector<double> variances;
-  std::vector<std::uint32_t> near;
+  std::array<std::vector<double>, 2> variances;
+  std::array<std::vector<double>, 2> left{std::vector<double>(places.size()),
+                                          std::vector<double>(places.size())};
   for (const double radius : radii) {
     const mesh::Neighbours neighbours(places, static_cast<float>(radius));
-    std::vector<double> left = values;
     for (std::size_t i = 0; i < places.size(); ++i) {
-      neighbours.of(places[i], near);
-      double sum = 0.0;
-      for (const auto j : near) sum += values[j];
-      left[i] -= sum / static_cast<double>(near.size());
+      std::array<double, 2> sums{};
+      double count = 0.0;
+      neighbours.each(places[i], [&](std::uint32_t j) {
+        sums[0] += values[0][j];
+        sums[1] += values[1][j];
+        count += 1.0;
+      });
+      for (const int v : {0, 1}) left[v][i] = values[v][i] - sums[v] / count;
     }
-    variances.push_back(std::pow(robust_deviation(std::move(left)), 2.0));
+    for (const int v : {0, 1}) variances[v].push_back(std::pow(robust_deviation(left[v]), 2.0));
   }
-  variances.push_back(std::pow(robust_deviation(values), 2.0));
+  for (const int v : {0, 1})
+    variances[v].push_back(std::pow(robust_deviation({values[v].begin(), values[v].end()}), 2.0));
   return variances;
 }
 

@@ -1,6 +1,7 @@
 /// What shape there is in values and in points.
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 #include <span>
 #include <vector>
@@ -15,12 +16,13 @@ double robust_deviation(std::vector<double> values);
 std::vector<double> heights_above_quadric(const std::vector<glm::dvec3>& points, const glm::dvec3& normal,
                                           int rounds);
 
-/// Squared robust deviations of values at points from their means over the surroundings of each radius, and over all.
-/// \param values  as many as points
+/// Squared robust deviations of two values a point from their means over the surroundings of each radius, and over all.
+/// \param values  of each kind as many as points
 /// \param radii   ascending
-/// \return one more than radii
-std::vector<double> variances_by_scale(const std::vector<glm::dvec3>& points,
-                                       const std::vector<double>& values, std::span<const double> radii);
+/// \return of each kind one more than radii
+std::array<std::vector<double>, 2> variances_by_scale(const std::vector<glm::dvec3>& points,
+                                                      const std::array<std::span<const double>, 2>& values,
+                                                      std::span<const double> radii);
 
 /// Mean of points.
 glm::dvec3 middle(const std::vector<glm::dvec3>& points);
