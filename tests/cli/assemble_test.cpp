@@ -21,14 +21,42 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// A ball broken in three, in a folder of its own.
+/// A ball broken in three, and its assembly: made once, and only read.
+class Ball {
+ public:
+  static const Ball& once() {
+    static const Ball ball;
+    return ball;
+  }
+
+  std::string mesh() const { return folder_ / "ball.ply"; }
+  std::string scans() const { return folder_ / "scans"; }
+  std::string assembly() const { return folder_ / "out"; }
+
+ private:
+  Ball() {
+    mesh::save(mesh(), mesh::test::icosphere(10.0F, 4));
+    const Finished broken = run({"shatter", mesh(), "--pieces", "3", "--spacing", "2", "--roughness", "2",
+                                 "--chips", "0", "--out", scans()});
+    EXPECT_EQ(broken.exit_code, 0) << broken.err;
+    const Finished assembled = run({"assemble", scans(), "--out", assembly(), "--quiet"});
+    EXPECT_EQ(assembled.exit_code, 0) << assembled.err;
+  }
+
+  const TemporaryFolder folder_;
+};
+
+/// The pieces of the ball in a folder of its own.
 class BrokenBall : public ::testing::Test {
  protected:
   void SetUp() override {
-    mesh::save(folder_ / "ball.ply", mesh::test::icosphere(10.0F, 4));
-    const Finished broken = run({"shatter", folder_ / "ball.ply", "--pieces", "3", "--spacing", "2",
-                                 "--roughness", "2", "--chips", "0", "--out", scans_});
-    ASSERT_EQ(broken.exit_code, 0) << broken.err;
+    std::filesystem::copy(Ball::once().scans(), scans_, std::filesystem::copy_options::recursive);
+  }
+
+  /// Folder of an assembly whose run knows all pairs of the ball.
+  std::string matched() const {
+    std::filesystem::copy(Ball::once().assembly(), folder_ / "out", std::filesystem::copy_options::recursive);
+    return folder_ / "out";
   }
 
   const TemporaryFolder folder_;
@@ -48,7 +76,7 @@ TEST_F(BrokenBall, ShatterWritesItsTruth) {
 
 TEST_F(BrokenBall, ShatterRefusesAFolderInUseWhoseFragmentsWouldMixWithItsOwn) {
   const std::string truth = read_file(scans_ + "/truth.json");
-  const Finished again = run({"shatter", folder_ / "ball.ply", "--pieces", "2", "--out", scans_});
+  const Finished again = run({"shatter", Ball::once().mesh(), "--pieces", "2", "--out", scans_});
   EXPECT_EQ(again.exit_code, 1);
   EXPECT_NE(again.err.find("not empty"), std::string::npos) << again.err;
   EXPECT_TRUE(is_one_line(again.err)) << again.err;
@@ -132,35 +160,23 @@ std::map<std::string, std::string> contents_of(const std::string& folder) {
 /// Two assemblies of one run: the second would leave a piece out.
 class SecondAssembly : public ::testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    home_ = new TemporaryFolder;
-    const std::string scans = *home_ / "scans";
-    mesh::save(*home_ / "ball.ply", mesh::test::icosphere(10.0F, 4));
-    ASSERT_EQ(run({"shatter", *home_ / "ball.ply", "--pieces", "3", "--spacing", "2", "--roughness", "2",
-                   "--chips", "0", "--out", scans})
-                  .exit_code,
-              0);
-    ASSERT_EQ(run({"assemble", scans, "--out", *home_ / "out", "--quiet"}).exit_code, 0);
-  }
-  static void TearDownTestSuite() {
-    delete home_;
-    home_ = nullptr;
-  }
-
   void SetUp() override {
-    std::filesystem::copy(*home_ / "out", out_, std::filesystem::copy_options::recursive);
+    copy_the_first();
     write_file(
         wishes_,
         R"({"must_not_join": [["fragment_00.ply", "fragment_01.ply"], ["fragment_00.ply", "fragment_02.ply"]]})");
   }
 
-  static TemporaryFolder* home_;
+  void copy_the_first() const {
+    std::filesystem::remove_all(out_);
+    std::filesystem::copy(Ball::once().assembly(), out_, std::filesystem::copy_options::recursive);
+  }
+
   const TemporaryFolder folder_;
   const std::string out_ = folder_ / "out";
   const std::string run_ = out_ + "/run";
   const std::string wishes_ = folder_ / "wishes.json";
 };
-TemporaryFolder* SecondAssembly::home_ = nullptr;
 
 TEST_F(SecondAssembly, ThatFindsTheDiskFullLeavesTheFirstAsItWas) {
   const auto models = contents_of(out_);
@@ -182,8 +198,7 @@ TEST_F(SecondAssembly, ThatIsInterruptedWhileModelsAreMadeLeavesTheFirstAsItWas)
   Finished finished;
   finished.exit_code = 0;
   for (int tries = 0; finished.exit_code == 0 && tries < 50; ++tries) {  // it may be done before it hears
-    std::filesystem::remove_all(out_);
-    std::filesystem::copy(*home_ / "out", out_, std::filesystem::copy_options::recursive);
+    copy_the_first();
     Running second({"assemble", run_, "--out", out_, "--constraints", wishes_});
     ASSERT_TRUE(second.wait_for_stdout("placed, "));
     second.interrupt();
@@ -220,7 +235,7 @@ TEST_F(SecondAssembly, RemovesTheMatricesOfTheFirstAndNoneOfTheUser) {
 
 TEST_F(BrokenBall, AssembleOfAFolderTellsAScanThatCannotBeUsedByItsExitCode) {
   write_file(scans_ + "/notes.ply", "Dear diary,\n");
-  const Finished finished = run({"assemble", scans_, "--json", json_});
+  const Finished finished = run({"assemble", scans_, "--json", json_, "--out", matched()});
   EXPECT_EQ(finished.exit_code, 1);
   const std::size_t told = finished.err.find("notes.ply");
   EXPECT_NE(told, std::string::npos) << finished.err;
@@ -237,7 +252,8 @@ TEST_F(BrokenBall, WhatIsAskedOfAScanThatCannotBeUsedNowStaysForTheNextAssembly)
       "must_not_join": [["fragment_01.ply", "notes.ply"]],
       "poses": {"notes.ply": [[1, 0, 0, 5], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}})");
   write_file(wishes, asked.dump());
-  const Finished finished = run({"assemble", scans_, "--json", json_, "--constraints", wishes});
+  const Finished finished =
+      run({"assemble", scans_, "--json", json_, "--constraints", wishes, "--out", matched()});
   EXPECT_NE(finished.err.find("\"must_join\"[0] is left out"), std::string::npos) << finished.err;
   const ordered_json kept = ordered_json::parse(read_file(json_))["constraints"];
   for (const auto& [key, value] : asked.items()) EXPECT_EQ(kept[key], value) << key;
@@ -249,7 +265,7 @@ TEST_F(BrokenBall, AssemblyOfARunTellsAScanOfAnotherUnit) {
   mesh::Mesh scan = mesh::load(metres).mesh;
   for (glm::vec3& vertex : scan.vertices) vertex *= 1e-3F;
   mesh::save(metres, scan);
-  const std::string kept = folder_ / "run";
+  const std::string kept = matched() + "/run";
   ASSERT_EQ(run({"batch", scans_, "--out", kept}).exit_code, 0);
   const Finished finished = run({"assemble", kept, "--json", json_});
   EXPECT_NE(finished.err.find("fragment_02.ply (diameter"), std::string::npos) << finished.err;
@@ -325,7 +341,8 @@ TEST_F(BrokenBall, WishesMayComeThroughAPipe) {
   const std::string pipe = folder_ / "pipe";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   std::thread writer([&] { write_file(pipe, R"({"must_join": [["fragment_00.ply", "fragment_01.ply"]]})"); });
-  const Finished finished = run({"assemble", scans_, "--json", json_, "--constraints", pipe});
+  const Finished finished =
+      run({"assemble", scans_, "--json", json_, "--constraints", pipe, "--out", matched()});
   writer.join();
   ASSERT_EQ(finished.exit_code, 0) << finished.err;
   EXPECT_EQ(ordered_json::parse(read_file(json_))["constraints"]["must_join"].size(), 1U);
