@@ -42,7 +42,7 @@ Camera fit_camera(const std::vector<Body>& bodies, const glm::dvec3& back, const
 struct RenderOptions {
   int width = 800;
   int height = 600;
-  int ambient_rays = 6;         ///< a sample; 0: no ambient occlusion.  A pixel has 2 x 2 samples.
+  int ambient_rays = 3;         ///< a sample; 0: no ambient occlusion.  A pixel has 2 x 2 samples.
   double ambient_reach = 0.35;  ///< how far occluders count, share of the scene's radius
   double relief = 1.0;          ///< 1: full light and shade, 0: flat colours (for colour scales)
   Colour background{250, 250, 250};
