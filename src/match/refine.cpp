@@ -24,6 +24,8 @@ constexpr double kLeastTouching = 0.82;         // of what lies over the other s
 constexpr double kLeastAgreement = 0.18;        // nats a patch: gaps vary by 0.84 of what the surfaces do
 constexpr std::size_t kShare =
     3;  // the poses of one pair of facets take one of so many parts of the places that go on
+constexpr std::size_t kFirsts =
+    4;  // and the last one of so many parts is left to pairs of facets that have no place yet, if there are any
 constexpr int kHalvings = 40;
 constexpr double kNoLimit = -std::numeric_limits<double>::infinity();
 constexpr double kFirm =
@@ -166,21 +168,31 @@ std::vector<Hypothesis> shortlist(const std::vector<Hypothesis>& list, const Fra
   const glm::dvec3 centre = mesh::centroid(b.surface);
   const double diameter = std::min(a.diameter, b.diameter);
   const std::size_t share = std::max<std::size_t>(1, most / kShare);
+  const std::size_t shared = most - most / kFirsts;
   PairsOfFacets facets(a, b);
   std::map<std::pair<int, int>, std::size_t> taken;
   std::vector<Hypothesis> kept;
-  std::vector<Hypothesis> waiting;
+  std::vector<Hypothesis> waiting;  // within the share of their pair of facets
+  std::vector<Hypothesis> beyond;
+  const auto wait = [&](const Hypothesis& hypothesis, std::vector<Hypothesis>& queue) {
+    if (queue.size() >= most || !is_new(hypothesis, centre, diameter, queue)) return false;
+    queue.push_back(hypothesis);
+    return true;
+  };
   for (const auto& hypothesis : list) {
     if (kept.size() == most) break;
     if (!is_new(hypothesis, centre, diameter, kept)) continue;
     std::size_t& of_these = taken[facets.of(hypothesis)];
-    if (of_these < share) {
+    if (of_these == 0 || (of_these < share && kept.size() < shared)) {
       ++of_these;
       kept.push_back(hypothesis);
-    } else if (waiting.size() < most && is_new(hypothesis, centre, diameter, waiting)) {
-      waiting.push_back(hypothesis);
+    } else if (of_these >= share) {
+      wait(hypothesis, beyond);
+    } else if (wait(hypothesis, waiting)) {
+      ++of_these;
     }
   }
+  waiting.insert(waiting.end(), beyond.begin(), beyond.end());
   for (const auto& hypothesis : waiting) {
     if (kept.size() == most) break;
     if (is_new(hypothesis, centre, diameter, kept)) kept.push_back(hypothesis);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <initializer_list>
 #include <vector>
 
@@ -201,6 +202,25 @@ TEST(Refine, PosesOfOnePairOfFacetsLeavePlacesToOthers) {
   for (std::size_t k = 0; k < 18; ++k)  // six of each
     EXPECT_EQ(mixed[k].evidence.information,
               500.0 - 100.0 * static_cast<double>(k / 6) - static_cast<double>(k % 6));
+}
+
+// A plate has two sides, of which each lies on either of the other's: four pairs of facets, whose shares are more than there is.
+TEST(Refine, FourPairsOfFacetsLeaveAPlaceToAFifth) {
+  const Pair pair = make_pair(6);
+  ASSERT_GE(pair.a.facets.facets.size(), 2U);
+  const Evidence evidence = Joint(pair.a, pair.b).agreed_evidence(pair.truth);
+  std::vector<Hypothesis> list;
+  for (int k = 0; k < 4; ++k) {
+    const auto sides = poses_of(k / 2 - 1, k % 2 - 1, 50, evidence, 500.0 - 0.1 * k, 5000.0 * k);
+    list.insert(list.end(), sides.begin(), sides.end());
+  }
+  std::ranges::sort(list, std::greater(), [](const Hypothesis& h) { return h.evidence.information; });
+  const auto join = poses_of(1, 0, 1, evidence, 50.0, -5000.0);
+  list.push_back(join.front());
+  const auto kept = shortlist(list, pair.a, pair.b, 24);
+  ASSERT_EQ(kept.size(), 24U);
+  EXPECT_EQ(std::ranges::count(kept, 1, &Hypothesis::facet_a), 1);
+  EXPECT_EQ(kept.back().facet_a, 1);
 }
 
 TEST(Refine, MovesWhatGainsAndLeavesWhatWouldWeaken) {
