@@ -103,9 +103,10 @@ cv::Scalar colour_of(std::size_t piece) {
 }
 
 /// The piece's own colours within its region, blue, green, red.
-cv::Mat placed_colours(const Piece& piece, const Planar& pose, const View& view, const cv::Rect& region) {
+cv::Mat placed_colours(const Piece& piece, const Planar& pose, const View& view, const cv::Rect& region,
+                       detail::LastPicture& source) {
   // The mask's edge reaches a pixel of the canvas beyond the border.
-  const cv::Mat colours = detail::colours_of(piece, 2 + static_cast<int>(std::ceil(1.0 / view.scale)));
+  const cv::Mat& colours = source.colours(piece, 2 + static_cast<int>(std::ceil(1.0 / view.scale)));
   const glm::dmat3 m = matrix(pose);
   const glm::dvec2 shift = view(glm::dvec2(m[2])) - glm::dvec2(region.x, region.y);
   const cv::Matx23d motion(view.scale * m[0][0], view.scale * m[1][0], shift.x, view.scale * m[0][1],
@@ -161,12 +162,12 @@ std::vector<std::uint8_t> png_of(const cv::Mat& image) {
   return bytes;
 }
 
-cv::Mat object_picture(const std::vector<Placed>& members, const View& view) {
+cv::Mat object_picture(const std::vector<Placed>& members, const View& view, detail::LastPicture& source) {
   cv::Mat canvas(view.size, CV_8UC4, cv::Scalar(0, 0, 0, 0));
   for (const auto& [piece, pose, number] : members) {
     const cv::Rect region = region_of(*piece, pose, view);
     const cv::Mat mask = mask_of(*piece, pose, view, region);
-    const cv::Mat colours = detail::is_picture(*piece) ? placed_colours(*piece, pose, view, region)
+    const cv::Mat colours = detail::is_picture(*piece) ? placed_colours(*piece, pose, view, region, source)
                                                        : cv::Mat(region.size(), CV_8UC3, colour_of(number));
     lay(canvas(region), colours, mask);
   }
@@ -259,7 +260,8 @@ std::vector<std::uint8_t> assembled_png(const std::vector<Piece>& pieces, const 
                                         const PictureOptions& options) {
   std::vector<Placed> members;
   for (std::size_t i = 0; i < pieces.size(); ++i) members.push_back({&pieces[i], poses[i], i});
-  return png_of(object_picture(members, view_of(members, options)));
+  detail::LastPicture source;
+  return png_of(object_picture(members, view_of(members, options), source));
 }
 
 bool has_result_name(const std::filesystem::path& file) {
@@ -289,11 +291,12 @@ std::vector<std::filesystem::path> write_assembly_pictures(const std::filesystem
     objects[group].push_back({&pieces[i], pose, i});
   }
   std::vector<std::filesystem::path> files;
+  detail::LastPicture source;
   for (std::size_t k = 0; k < objects.size() && k < options.most_objects && objects[k].size() > 1; ++k) {
     const View view = view_of(objects[k], options);
     const std::string number = std::to_string(k + 1);
     files.push_back(folder / ("object_" + number + ".png"));
-    detail::write_png(files.back(), object_picture(objects[k], view));
+    detail::write_png(files.back(), object_picture(objects[k], view, source));
     files.push_back(folder / ("joins_" + number + ".png"));
     detail::write_png(files.back(), joins_picture(objects[k], assembly.joins, view));
   }

@@ -50,27 +50,11 @@ struct Window {
   }
 };
 
-/// Reads each picture once, as the pieces of one scan follow each other.
-class Source {
- public:
-  const cv::Mat& of(const Piece& piece) {
-    if (piece.path != path_) {
-      colours_ = detail::colours_on_white(piece);
-      path_ = piece.path;
-    }
-    return colours_;
-  }
-
- private:
-  std::string path_;
-  cv::Mat colours_;
-};
-
-cv::Mat shown(const Piece& piece, const Window& window, Source& source) {
+cv::Mat shown(const Piece& piece, const Window& window, detail::LastPicture& source) {
   if (!detail::is_picture(piece)) return {window.size(), CV_8UC3, cv::Scalar(235, 235, 235)};
   const cv::Matx23d motion(window.scale, 0.0, -window.low.x * window.scale, 0.0, window.scale,
                            -window.low.y * window.scale);
-  return detail::resampled(source.of(piece), motion, window.size(), cv::BORDER_CONSTANT);
+  return detail::resampled(source.on_white(piece), motion, window.size(), cv::BORDER_CONSTANT);
 }
 
 void draw_border(cv::Mat& image, const std::vector<glm::dvec2>& polygon, const Window& window) {
@@ -92,7 +76,7 @@ void write_pieces_picture(const std::filesystem::path& path, const std::vector<P
   const std::size_t rows = (count + columns - 1) / columns;
   cv::Mat sheet(static_cast<int>(rows) * kTile, static_cast<int>(columns) * kTile, CV_8UC3,
                 cv::Scalar(255, 255, 255));
-  Source source;
+  detail::LastPicture source;
   for (std::size_t k = 0; k < count; ++k) {
     const Piece& piece = pieces[k];
     const cv::Point corner(static_cast<int>(k % columns) * kTile, static_cast<int>(k / columns) * kTile);

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <string>
+#include <vector>
 
 #include "core/error.hpp"
 #include "outline/pieces_picture.hpp"
@@ -65,6 +68,34 @@ TEST_F(AssemblyPictures, SheetShowsEveryPieceWithItsOutlineOverIt) {
     EXPECT_NEAR(static_cast<double>(box.width) / box.height, 40.0 / 30.0, 0.05) << k;
     EXPECT_GT(box.width, 0.7 * cell) << k;
   }
+}
+
+/// Bytes that this process has read so far.
+std::size_t bytes_read() {
+  std::ifstream file("/proc/self/io");
+  std::string word;
+  std::size_t bytes = 0;
+  EXPECT_TRUE(file >> word >> bytes && word == "rchar:") << "the kernel does not tell what a process reads";
+  return bytes;
+}
+
+TEST_F(AssemblyPictures, ReadsAScanOnceForAllItsPieces) {
+  constexpr int kPieces = 12;
+  cv::Mat scan(400, 50 * kPieces, CV_8UC3);
+  cv::randu(scan, cv::Scalar::all(0), cv::Scalar::all(255));
+  Piece piece = coloured("scan.png", {0, 0, 0});
+  cv::imwrite(piece.path, scan);
+  std::vector<Piece> pieces;
+  Assembly assembly;
+  for (int k = 0; k < kPieces; ++k) {
+    const double x = 50.0 * k;
+    piece.outline.points = {{x, 10.0}, {x + 45.0, 10.0}, {x + 45.0, 390.0}, {x, 390.0}};
+    pieces.push_back(piece);
+    assembly.placements.push_back({Planar{}, 0, 0.9});
+  }
+  const std::size_t start = bytes_read();
+  write_assembly_pictures(folder_, pieces, assembly);
+  EXPECT_LT(bytes_read() - start, 3 * fs::file_size(piece.path));
 }
 
 TEST_F(AssemblyPictures, AScanMayBeLongerThanOpenCvTakes) {

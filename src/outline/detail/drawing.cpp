@@ -62,6 +62,25 @@ cv::Mat colours_on_white(const Piece& piece) {
   });
 }
 
+const cv::Mat& LastPicture::colours(const Piece& piece, int reach) {
+  return read(piece, reach);
+}
+
+const cv::Mat& LastPicture::on_white(const Piece& piece) {
+  return read(piece, kOnWhite);
+}
+
+const cv::Mat& LastPicture::read(const Piece& piece, int reach) {
+  if (piece.path != path_ || reach != reach_) {
+    path_.clear();
+    colours_.release();  // not two large pictures at a time
+    colours_ = reach == kOnWhite ? colours_on_white(piece) : colours_of(piece, reach);
+    path_ = piece.path;
+    reach_ = reach;
+  }
+  return colours_;
+}
+
 cv::Mat resampled(const cv::Mat& colours, cv::Matx23d motion, const cv::Size& size, int border) {
   constexpr int kLongest = 16384;
   const int times = (std::max(colours.cols, colours.rows) + kLongest - 1) / kLongest;

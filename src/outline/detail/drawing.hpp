@@ -21,6 +21,24 @@ cv::Mat colours_of(const Piece& piece, int reach);
 /// The same with white where the picture is transparent.
 cv::Mat colours_on_white(const Piece& piece);
 
+/// The picture last asked for: the pieces of a scan follow each other, and a large one takes seconds to read.
+class LastPicture {
+ public:
+  /// As colours_of(); holds until the next call.
+  const cv::Mat& colours(const Piece& piece, int reach);
+  /// As colours_on_white(); holds until the next call.
+  const cv::Mat& on_white(const Piece& piece);
+
+ private:
+  static constexpr int kOnWhite = -1;
+
+  const cv::Mat& read(const Piece& piece, int reach);
+
+  std::string path_;
+  int reach_ = kOnWhite;
+  cv::Mat colours_;
+};
+
 /// Colours at their places in a picture of this size, 8 bits.  Pictures with a side of more than 16,384 pixels are made smaller first, as
 /// OpenCV's own function takes none above 32,767.
 /// \param motion  from places in `colours` to those in the result
