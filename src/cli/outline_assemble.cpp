@@ -66,8 +66,8 @@ std::string without_place(const std::vector<outline::Piece>& pieces, const outli
   const auto repeat = std::ranges::find(assembly.repeats, piece, &outline::AssemblyRepeat::piece);
   if (repeat != assembly.repeats.end())
     return fmt::format(
-        "  fits nowhere: {} (has the outline of {}: another scan of it, or cut to one shape)\n", name,
-        pieces[repeat->of].name);
+        "  fits nowhere: {} (has the outline of {}{}, or cut to one shape)\n", name, pieces[repeat->of].name,
+        repeat->turned_over ? " turned over: a picture of its other side" : ": another scan of it");
   for (const outline::AssemblyJoin& join : assembly.joins) {
     const auto rival = std::ranges::find(join.rivals, piece, &outline::AssemblyRival::piece);
     if (rival != join.rivals.end() && rival->score >= outline::kSureScore)

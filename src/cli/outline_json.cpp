@@ -118,7 +118,9 @@ std::string assembly_json(const outline::PieceSet& set, const outline::Assembly&
   for (const std::size_t piece : assembly.untried) untried.push_back(pieces[piece].name);
   ordered_json congruent = ordered_json::array();
   for (const outline::AssemblyRepeat& repeat : assembly.repeats)
-    congruent.push_back({{"name", pieces[repeat.piece].name}, {"of", pieces[repeat.of].name}});
+    congruent.push_back({{"name", pieces[repeat.piece].name},
+                         {"of", pieces[repeat.of].name},
+                         {"turned_over", repeat.turned_over}});
   // All that have no place, whatever the reason; the lists after it tell that.
   unplaced.insert(unplaced.end(), untried.begin(), untried.end());
   for (const auto* left_out : {&set.unusable, &set.repeated, &set.left_out})

@@ -6,6 +6,7 @@
 #include <functional>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <tuple>
@@ -368,15 +369,24 @@ class Description {
 };
 
 /// \param unplaced  ascending   \param are_congruent  (a, b), a < b
-std::vector<AssemblyRepeat> repeats_of(std::size_t pieces, const std::vector<std::size_t>& unplaced,
+std::vector<AssemblyRepeat> repeats_of(const std::vector<Piece>& pieces,
+                                       const std::vector<std::size_t>& unplaced,
                                        const std::function<bool(std::size_t, std::size_t)>& are_congruent) {
   std::vector<AssemblyRepeat> repeats;
   for (const std::size_t piece : unplaced) {
-    for (std::size_t other = 0; other < pieces; ++other) {
-      if (other >= piece && std::ranges::binary_search(unplaced, other)) continue;
-      if (!are_congruent(std::min(piece, other), std::max(piece, other))) continue;
-      repeats.push_back({piece, other});
-      break;
+    const auto first_where = [&](const auto& alike) -> std::optional<std::size_t> {
+      for (std::size_t other = 0; other < pieces.size(); ++other) {
+        if (other >= piece && std::ranges::binary_search(unplaced, other)) continue;
+        if (alike(std::min(piece, other), std::max(piece, other))) return other;
+      }
+      return std::nullopt;
+    };
+    if (const auto other = first_where(are_congruent)) {
+      repeats.push_back({piece, *other});
+    } else if (const auto side = first_where([&](std::size_t a, std::size_t b) {
+                 return congruent_turned_over(pieces[a].outline, pieces[b].outline);
+               })) {
+      repeats.push_back({piece, *side, true});
     }
   }
   return repeats;
@@ -398,7 +408,7 @@ Assembly assemble(const std::vector<Piece>& pieces, const std::vector<PairResult
                   const AssemblyOptions& options, const Context& context) {
   if (pieces.empty()) return {};
   Assembly assembly = assemble_linked(pieces, detail::link_pieces(pieces, pairs, options), options, context);
-  assembly.repeats = repeats_of(pieces.size(), assembly.unplaced, [&](std::size_t a, std::size_t b) {
+  assembly.repeats = repeats_of(pieces, assembly.unplaced, [&](std::size_t a, std::size_t b) {
     return congruent(pieces[a].outline, pieces[b].outline);
   });
   return assembly;
@@ -473,7 +483,7 @@ Assembly assemble(const std::vector<Piece>& pieces, const Matcher& matcher, cons
     }
   }
   assembly.cancelled = context.cancelled();
-  assembly.repeats = repeats_of(pieces.size(), assembly.unplaced, [&](std::size_t a, std::size_t b) {
+  assembly.repeats = repeats_of(pieces, assembly.unplaced, [&](std::size_t a, std::size_t b) {
     return names[a * (2 * pieces.size() - a - 1) / 2 + b - a - 1].congruent;
   });
   std::set<std::size_t> open;

@@ -10,4 +10,7 @@ namespace rejoin::outline {
 /// than a thousandth of their length.  Pieces cut to one size are congruent too; broken ones only with themselves.
 bool congruent(const Outline& a, const Outline& b);
 
+/// The same after one of them is turned over: pictures of a piece's two sides.
+bool congruent_turned_over(const Outline& a, const Outline& b);
+
 }  // namespace rejoin::outline

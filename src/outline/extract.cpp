@@ -28,9 +28,10 @@ constexpr double kMostOnBorder = 12.0;
 // A rectangle that takes more than this share of the picture's width and height is hardly a piece, and fills this share of its box.
 constexpr double kLeastBed = 0.85;
 constexpr double kRectangle = 0.97;
-// More pieces than this of which the largest takes less than this share of the picture are hardly pieces.
+// More pieces than this of which the largest takes less than this share of the picture, and fewer pixels, are hardly pieces.
 constexpr std::size_t kMany = 20;
 constexpr double kSmall = 0.01;
+constexpr double kLargestLetter = 250.0 * 250.0;
 // They are print if they lie on paper: what is this much farther from the background than its frame is, on the mean of many pixels,
 // and has this many times their area.
 constexpr double kPaperBlur = 4.0;
@@ -244,7 +245,8 @@ void doubt_background(const std::vector<Polygon>& outer, const cv::Mat& distance
   if (std::any_of(outer.begin(), outer.end(), [&](const Polygon& p) { return is_blurred(p, distance); }))
     notes.emplace_back(
         "the outline is blurred, so look whether it is the piece's or that of light on the background");
-  if (outer.size() > kMany && signed_area(outer[0]) < kSmall * static_cast<double>(distance.total())) {
+  const double letter = std::min(kLargestLetter, kSmall * static_cast<double>(distance.total()));
+  if (outer.size() > kMany && signed_area(outer[0]) < letter) {
     notes.push_back(fmt::format(
         "{} pieces, all small: if these are letters or specks, the background is too like the piece",
         outer.size()));

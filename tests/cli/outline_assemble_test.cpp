@@ -183,17 +183,38 @@ TEST(OutlineAssemble, AFileThatCannotBeUsedIsToldAndTheRestGoesOn) {
   EXPECT_EQ(rest["unplaced"], json::array({"bad.png"}));
 }
 
-TEST(OutlineAssemble, AnotherScanOfAPieceIsToldWhereItHasNoPlace) {
-  const BrokenShapes shapes;
+/// Adds another scan of a piece.
+/// \param side  -1: of its other side
+void scan_again(const BrokenShapes& shapes, double side) {
   std::istringstream points(read_file(shapes.pieces + "/piece_001.csv"));
   std::ostringstream turned;
   for (std::string line; std::getline(points, line);) {
     double x = 0.0;
     double y = 0.0;
     if (std::sscanf(line.c_str(), "%lf,%lf", &x, &y) == 2)
-      turned << 0.6 * x - 0.8 * y + 70.0 << ',' << 0.8 * x + 0.6 * y << '\n';
+      turned << 0.6 * x - side * 0.8 * y + 70.0 << ',' << 0.8 * x + side * 0.6 * y << '\n';
   }
   write_file(shapes.pieces + "/turned.csv", turned.str());
+}
+
+TEST(OutlineAssemble, OtherSideOfAPieceIsTold) {
+  const BrokenShapes shapes;
+  scan_again(shapes, -1.0);
+  const std::string file = shapes / "assembly.json";
+  const Finished done = run({"outline", "assemble", shapes.pieces, "--json", file});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  const json expected = {{"name", "turned.csv"}, {"of", "piece_001.csv"}, {"turned_over", true}};
+  EXPECT_EQ(json::parse(read_file(file))["congruent"], json::array({expected}));
+  EXPECT_NE(done.out.find("turned.csv (has the outline of piece_001.csv turned over"), std::string::npos)
+      << done.out;
+  const Finished pair =
+      run({"outline", "match", shapes.pieces + "/turned.csv", shapes.pieces + "/piece_001.csv"});
+  EXPECT_NE(pair.err.find("may be two sides of one piece"), std::string::npos) << pair.err;
+}
+
+TEST(OutlineAssemble, AnotherScanOfAPieceIsToldWhereItHasNoPlace) {
+  const BrokenShapes shapes;
+  scan_again(shapes, 1.0);
   const std::string file = shapes / "assembly.json";
   const Finished done = run({"outline", "assemble", shapes.pieces, "--json", file});
   EXPECT_EQ(done.exit_code, 0) << done.err;

@@ -27,12 +27,17 @@ TEST(Congruence, HoldsWhereverABorderBegins) {
   EXPECT_TRUE(congruent(board.pieces[0].outline, turned));
 }
 
-TEST(Congruence, MirroredPiecesAreTwo) {
+TEST(Congruence, AMirroredPieceIsCongruentTurnedOver) {
   const planted::Board board = planted::broken_board(2, 1, 0.05, 12);
-  Outline mirrored = board.pieces[0].outline;
-  for (glm::dvec2& p : mirrored.points) p.y = -p.y;
+  Random random(6);
+  const Outline& piece = board.pieces[0].outline;
+  const Outline turned = planted::moved(board.pieces[0], {2.0, {900.0, 40.0}, false}, 0.1, random).outline;
+  Outline mirrored = planted::moved(board.pieces[0], {1.0, {-70.0, 40.0}, true}, 0.1, random).outline;
   std::reverse(mirrored.points.begin(), mirrored.points.end());
-  EXPECT_FALSE(congruent(board.pieces[0].outline, mirrored));
+  EXPECT_FALSE(congruent(piece, mirrored));
+  EXPECT_TRUE(congruent_turned_over(piece, mirrored));
+  EXPECT_FALSE(congruent_turned_over(piece, turned));
+  EXPECT_FALSE(congruent_turned_over(board.pieces[1].outline, mirrored));
 }
 
 // A rectangle has corners for its only points, which are far apart: that does not make it another one.
