@@ -46,7 +46,8 @@ void refine(std::vector<Hypothesis>& list, const Joint& joint, const Pass& pass,
 std::vector<Hypothesis> distinct(const std::vector<Hypothesis>& list, const Fragment& b, double diameter);
 
 /// The first `most` of a list that are different poses, but of one pair of facets a third of them as long as there are
-/// others: where sawn or moulded faces lie on each other, all their poses look better than that of a small break.
+/// others, and in the last quarter one each of pairs that have none yet: where sawn or moulded faces lie on each other,
+/// all their poses look better than that of a small break, and two plates' sides make four pairs.
 /// \pre sorted by refine()
 std::vector<Hypothesis> shortlist(const std::vector<Hypothesis>& list, const Fragment& a, const Fragment& b,
                                   std::size_t most);
