@@ -22,10 +22,10 @@ constexpr double kUnbacked = 0.9;               // share of the contact
 constexpr double kSkin = 4.0;                   // patches: less goes on at wrong poses, too
 constexpr double kLeastTouching = 0.82;         // of what lies over the other surface, what touches
 constexpr double kLeastAgreement = 0.18;        // nats a patch: gaps vary by 0.84 of what the surfaces do
-constexpr std::size_t kShare =
-    3;  // the poses of one pair of facets take one of so many parts of the places that go on
-constexpr std::size_t kFirsts =
-    4;  // and the last one of so many parts is left to pairs of facets that have no place yet, if there are any
+// The poses of one pair of facets take one of so many parts of the places that go on; the last one of so many parts is for pairs of
+// facets that have no place yet.
+constexpr std::size_t kShare = 3;
+constexpr std::size_t kFirsts = 4;
 constexpr int kHalvings = 40;
 constexpr double kNoLimit = -std::numeric_limits<double>::infinity();
 constexpr double kFirm =
@@ -183,14 +183,13 @@ std::vector<Hypothesis> shortlist(const std::vector<Hypothesis>& list, const Fra
     if (kept.size() == most) break;
     if (!is_new(hypothesis, centre, diameter, kept)) continue;
     std::size_t& of_these = taken[facets.of(hypothesis)];
-    if (of_these == 0 || (of_these < share && kept.size() < shared)) {
-      ++of_these;
+    const bool within = of_these < share;
+    if (of_these == 0 || (within && kept.size() < shared)) {
       kept.push_back(hypothesis);
-    } else if (of_these >= share) {
-      wait(hypothesis, beyond);
-    } else if (wait(hypothesis, waiting)) {
-      ++of_these;
+    } else if (!wait(hypothesis, within ? waiting : beyond)) {
+      continue;
     }
+    ++of_these;
   }
   waiting.insert(waiting.end(), beyond.begin(), beyond.end());
   for (const auto& hypothesis : waiting) {

@@ -22,7 +22,7 @@ class Neighbours {
 
   /// Calls `visit(number)` for all points closer than the radius, in the order of their cells: faster where the order does not matter.
   template <typename Visit>
-  void each(const glm::vec3& point, Visit&& visit) const {
+  void each(const glm::vec3& point, const Visit& visit) const {
     any(point, [&](std::uint32_t k) {
       visit(k);
       return false;
@@ -31,7 +31,7 @@ class Neighbours {
 
   /// Whether `holds(number)` for some point closer than the radius.
   template <typename Holds>
-  bool any(const glm::vec3& point, Holds&& holds) const {
+  bool any(const glm::vec3& point, const Holds& holds) const {
     const glm::ivec3 middle = cell_of(point);
     const glm::ivec3 from = glm::max(middle - 1, 0);
     const glm::ivec3 to = glm::min(middle + 1, cells_ - 1);
