@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "mesh/detail/inside.hpp"
 #include "mesh/detail/local_fit.hpp"
 #include "mesh/detail/thin_parts.hpp"
+#include "mesh/neighbours.hpp"
 #include "mesh/point_index.hpp"
 #include "mesh/samples.hpp"
 
@@ -43,6 +45,8 @@ constexpr float kEnclosed = 0.7F;  // of the directions end in the body, at leas
 constexpr double kClosed = 0.9;    // ... nearly everywhere
 constexpr double kNear = 1.0;      // spacings of places from a seam ...
 constexpr double kFar = 3.0;       // ... between which is beside it
+constexpr double kReach = 2.0;     // spacings: faces of thin parts have a thin place so near
+constexpr float kThick = std::numeric_limits<float>::max();
 
 Mesh without(const Mesh& mesh, const std::vector<bool>& faces) {
   std::vector<std::uint32_t> kept;
@@ -65,7 +69,11 @@ class FlapSearch {
  public:
   explicit FlapSearch(const Mesh& mesh)
       : mesh_(mesh), inside_(mesh), places_(sample_surface(mesh, kLeafPlaces)), area_(surface_area(mesh)) {
-    thickness_ = thickness_of(places_.points, places_.normals);
+    thickness_.resize(places_.size());
+    parallel_for(places_.size(), 64, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i)
+        thickness_[i] = thickness_at(places_.points[i], places_.normals[i]);
+    });
     std::vector<float> known;
     std::ranges::copy_if(thickness_, std::back_inserter(known), [](float t) { return t < kNoBody; });
     has_body_ = static_cast<double>(known.size()) >= (1.0 - kMostOpen) * static_cast<double>(places_.size());
@@ -96,12 +104,25 @@ class FlapSearch {
   }
 
  private:
+  /// Looks where a place nearby is thin, as of a part that counts most places are: a scan may have millions of faces.
   void look_at_faces() {
-    std::vector<glm::vec3> middles;
-    middles.reserve(mesh_.faces.size());
-    for (const glm::uvec3& face : mesh_.faces)
-      middles.push_back((mesh_.vertices[face.x] + mesh_.vertices[face.y] + mesh_.vertices[face.z]) / 3.0F);
-    of_faces_ = thickness_of(middles, evened_normals());
+    std::vector<glm::vec3> thin;
+    for (std::size_t i = 0; i < places_.size(); ++i)
+      if (is_thin(thickness_[i], kThin.back())) thin.push_back(places_.points[i]);
+    const Neighbours neighbours(thin, static_cast<float>(kReach * places_.spacing));
+    const std::vector<glm::vec3> normals = evened_normals();
+    const float limit = static_cast<float>(kThin.back()) * body_;
+    of_faces_.assign(mesh_.faces.size(), kThick);
+    parallel_for(of_faces_.size(), 64, [&](std::size_t first, std::size_t last) {
+      for (std::size_t f = first; f < last; ++f) {
+        const glm::uvec3& face = mesh_.faces[f];
+        const glm::vec3 middle =
+            (mesh_.vertices[face.x] + mesh_.vertices[face.y] + mesh_.vertices[face.z]) / 3.0F;
+        if (!neighbours.any(middle, [](std::uint32_t) { return true; })) continue;
+        if (normals[f] != glm::vec3(0.0F) && inside_.is_thicker(middle, normals[f], limit)) continue;
+        of_faces_[f] = thickness_at(middle, normals[f]);
+      }
+    });
   }
 
   Kind kind_of(const ThinPart& part) const {
@@ -127,15 +148,8 @@ class FlapSearch {
     return thickness == kNoBody || thickness <= static_cast<float>(share) * body_;
   }
 
-  std::vector<float> thickness_of(const std::vector<glm::vec3>& points,
-                                  const std::vector<glm::vec3>& normals) const {
-    std::vector<float> result(points.size(), kNoBody);
-    parallel_for(points.size(), 64, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) {
-        if (normals[i] != glm::vec3(0.0F)) result[i] = inside_.thickness_at(points[i], normals[i]);
-      }
-    });
-    return result;
+  float thickness_at(const glm::vec3& point, const glm::vec3& normal) const {
+    return normal == glm::vec3(0.0F) ? kNoBody : inside_.thickness_at(point, normal);
   }
 
   /// Of every face, with what of its surroundings looks its way: noise turns single ones.
@@ -283,7 +297,7 @@ class FlapSearch {
   Samples places_;
   double area_;
   std::vector<float> thickness_;  ///< at the places
-  std::vector<float> of_faces_;   ///< thickness at their middles
+  std::vector<float> of_faces_;   ///< thickness at their middles; kThick: more than the last of kThin
   bool has_body_ = false;
   float body_ = 0;  ///< median thickness
 };

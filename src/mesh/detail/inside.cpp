@@ -34,8 +34,9 @@ Inside::Inside(const Mesh& mesh)
       wide_(half_sphere_directions(kWide)),
       start_(static_cast<float>(kStart * resolution(mesh))) {}
 
-std::optional<RayScene::Hit> Inside::exit(const glm::vec3& place, const glm::vec3& direction) const {
-  const auto hit = scene_.first_hit(place, direction, start_, kNoBody);
+std::optional<RayScene::Hit> Inside::exit(const glm::vec3& place, const glm::vec3& direction,
+                                          float farthest) const {
+  const auto hit = scene_.first_hit(place, direction, start_, farthest);
   return hit && glm::dot(face_normals_[hit->face], direction) > 0.0F ? hit : std::nullopt;
 }
 
@@ -51,6 +52,24 @@ float Inside::thickness_under(const glm::vec3& place, const glm::vec3& normal) c
 
 float Inside::thickness_at(const glm::vec3& place, const glm::vec3& normal) const {
   return std::min(thickness_under(place, normal), thickness_under(place, -normal));
+}
+
+bool Inside::is_thicker(const glm::vec3& place, const glm::vec3& normal, float limit) const {
+  const std::size_t most = narrow_.size() / 2 + 1;  // as many tell where the median is
+  const glm::mat3 under = frame_about(-normal);
+  std::size_t beyond = 0;
+  for (std::size_t k = 0; beyond < most; ++k) {
+    if (k - beyond > narrow_.size() - most) return false;
+    const auto hit = exit(place, under * narrow_[k]);
+    if (hit && hit->distance * narrow_[k].z > limit) ++beyond;
+  }
+  const glm::mat3 over = frame_about(normal);
+  std::size_t within = 0;
+  for (std::size_t k = 0; k - within <= narrow_.size() - most; ++k) {
+    if (exit(place, over * narrow_[k], limit / narrow_[k].z)) ++within;
+    if (within == most) return false;
+  }
+  return true;
 }
 
 std::vector<std::uint32_t> Inside::exits_from(const glm::vec3& place, const glm::vec3& normal) const {

@@ -26,6 +26,9 @@ class Inside {
   /// either side of the surface, whichever way it is wound.
   float thickness_at(const glm::vec3& place, const glm::vec3& normal) const;
 
+  /// Whether that thickness is known and more than `limit`, in half the rays and less; false where it takes more of them to tell.
+  bool is_thicker(const glm::vec3& place, const glm::vec3& normal, float limit) const;
+
   /// Faces through which such rays leave the body under the surface.
   std::vector<std::uint32_t> exits_from(const glm::vec3& place, const glm::vec3& normal) const;
 
@@ -33,7 +36,8 @@ class Inside {
   float enclosed_at(const glm::vec3& place, const glm::vec3& normal) const;
 
  private:
-  std::optional<RayScene::Hit> exit(const glm::vec3& place, const glm::vec3& direction) const;
+  std::optional<RayScene::Hit> exit(const glm::vec3& place, const glm::vec3& direction,
+                                    float farthest = kNoBody) const;
   float thickness_under(const glm::vec3& place, const glm::vec3& normal) const;
 
   RayScene scene_;
