@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -18,16 +19,26 @@ constexpr double kLong = 4.0;    // typical edges: a longer face stands for itse
 /// A face at an edge.
 using Side = std::array<std::uint32_t, 3>;  // lower and higher vertex, face
 
+/// In ascending order: first by the lower vertex, which has few of them.
 std::vector<Side> sides_of(const Mesh& mesh) {
-  std::vector<Side> sides;
-  sides.reserve(3 * mesh.faces.size());
-  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      const auto [low, high] = std::minmax({mesh.faces[f][k], mesh.faces[f][(k + 1) % 3]});
-      sides.push_back({low, high, f});
+  std::vector<std::size_t> first(mesh.vertices.size() + 1, 0);
+  const auto for_each_side = [&](const auto& body) {
+    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+      for (int k = 0; k < 3; ++k) {
+        const auto [low, high] = std::minmax({mesh.faces[f][k], mesh.faces[f][(k + 1) % 3]});
+        body(Side{low, high, f});
+      }
     }
+  };
+  for_each_side([&](const Side& side) { ++first[side[0] + 1]; });
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<std::size_t> next(first.begin(), first.end() - 1);
+  std::vector<Side> sides(3 * mesh.faces.size());
+  for_each_side([&](const Side& side) { sides[next[side[0]]++] = side; });
+  for (std::size_t v = 0; v < next.size(); ++v) {
+    std::sort(sides.begin() + static_cast<std::ptrdiff_t>(first[v]),
+              sides.begin() + static_cast<std::ptrdiff_t>(next[v]));
   }
-  std::ranges::sort(sides);
   return sides;
 }
 
