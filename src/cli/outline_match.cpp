@@ -95,7 +95,7 @@ class OutlineMatchCommand final : public Command {
       console.warning(
           fmt::format("{} and {} are the same piece, or cut to one shape: their outlines are congruent",
                       pieces[0].name, pieces[1].name));
-    } else if (outline::congruent_turned_over(pieces[0].outline, pieces[1].outline)) {
+    } else if (outline::congruent(outline::turned_over(pieces[0].outline), pieces[1].outline)) {
       console.warning(
           fmt::format("{} and {} may be two sides of one piece: turned over, one has the other's outline",
                       pieces[0].name, pieces[1].name));

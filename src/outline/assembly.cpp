@@ -377,17 +377,16 @@ std::vector<AssemblyRepeat> repeats_of(const std::vector<Piece>& pieces,
     const auto first_where = [&](const auto& alike) -> std::optional<std::size_t> {
       for (std::size_t other = 0; other < pieces.size(); ++other) {
         if (other >= piece && std::ranges::binary_search(unplaced, other)) continue;
-        if (alike(std::min(piece, other), std::max(piece, other))) return other;
+        if (alike(other)) return other;
       }
       return std::nullopt;
     };
-    if (const auto other = first_where(are_congruent)) {
-      repeats.push_back({piece, *other});
-    } else if (const auto side = first_where([&](std::size_t a, std::size_t b) {
-                 return congruent_turned_over(pieces[a].outline, pieces[b].outline);
-               })) {
-      repeats.push_back({piece, *side, true});
-    }
+    const auto again =
+        first_where([&](std::size_t o) { return are_congruent(std::min(piece, o), std::max(piece, o)); });
+    const Outline back = turned_over(pieces[piece].outline);
+    const auto of =
+        again ? again : first_where([&](std::size_t o) { return congruent(back, pieces[o].outline); });
+    if (of) repeats.push_back({piece, *of, !again});
   }
   return repeats;
 }

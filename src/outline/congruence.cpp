@@ -113,11 +113,11 @@ bool congruent(const Outline& a, const Outline& b) {
   return false;
 }
 
-bool congruent_turned_over(const Outline& a, const Outline& b) {
+Outline turned_over(const Outline& a) {
   Outline other;
-  for (const glm::dvec2& p : b.points) other.points.emplace_back(p.x, -p.y);
-  std::reverse(other.points.begin(), other.points.end());
-  return congruent(a, other);
+  other.points.assign(a.points.rbegin(), a.points.rend());
+  for (glm::dvec2& p : other.points) p.y = -p.y;
+  return other;
 }
 
 }  // namespace rejoin::outline

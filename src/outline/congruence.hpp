@@ -10,7 +10,7 @@ namespace rejoin::outline {
 /// than a thousandth of their length.  Pieces cut to one size are congruent too; broken ones only with themselves.
 bool congruent(const Outline& a, const Outline& b);
 
-/// The same after one of them is turned over: pictures of a piece's two sides.
-bool congruent_turned_over(const Outline& a, const Outline& b);
+/// The outer border as it is seen from the other side: congruent() with that of a picture of the piece's other side.
+Outline turned_over(const Outline& a);
 
 }  // namespace rejoin::outline

@@ -4,14 +4,13 @@
 
 #include <vector>
 
-#include "core/random.hpp"
 #include "mesh/samples.hpp"
 #include "shapes.hpp"
 
 namespace rejoin::mesh::detail {
 namespace {
 
-// What is told in fewer rays is what all of them tell: on a ball with a thin box at its side and an open sheet, wound either way.
+// What is told in fewer rays is what all of them tell: on a ball with a thin leaf at its side and an open sheet, wound either way.
 TEST(Inside, IsThickerWhereTheThicknessIs) {
   Mesh mesh = test::icosphere(10.0F, 3);
   const auto add = [&](const Mesh& other, const glm::vec3& at) {

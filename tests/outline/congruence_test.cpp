@@ -35,9 +35,9 @@ TEST(Congruence, AMirroredPieceIsCongruentTurnedOver) {
   Outline mirrored = planted::moved(board.pieces[0], {1.0, {-70.0, 40.0}, true}, 0.1, random).outline;
   std::reverse(mirrored.points.begin(), mirrored.points.end());
   EXPECT_FALSE(congruent(piece, mirrored));
-  EXPECT_TRUE(congruent_turned_over(piece, mirrored));
-  EXPECT_FALSE(congruent_turned_over(piece, turned));
-  EXPECT_FALSE(congruent_turned_over(board.pieces[1].outline, mirrored));
+  EXPECT_TRUE(congruent(turned_over(piece), mirrored));
+  EXPECT_FALSE(congruent(turned_over(piece), turned));
+  EXPECT_FALSE(congruent(turned_over(board.pieces[1].outline), mirrored));
 }
 
 // A rectangle has corners for its only points, which are far apart: that does not make it another one.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -242,6 +243,25 @@ TEST(Extract, HolesAreKeptAndDustIsNot) {
   EXPECT_NEAR(signed_area(found.pieces[0].holes[0]), -40.0 * 40.0, 10.0);
   EXPECT_NEAR(signed_area(found.pieces[1].points), 60.0 * 60.0, 10.0);
   EXPECT_TRUE(found.pieces[1].holes.empty());
+}
+
+// As many pieces as fill a scan are each a small part of it, whatever they are: letters and specks have few pixels, too.
+TEST(Extract, ManySmallPiecesAreDoubtedAndManyLargeOnesAreNot) {
+  const Folder folder;
+  for (const int side : {60, 270}) {
+    cv::Mat image(12 * side, 12 * side, CV_8UC3, cv::Scalar(250, 250, 250));
+    for (int k = 0; k < 25; ++k) {
+      const cv::Point corner(2 * side * (k % 5) + side, 2 * side * (k / 5) + side);
+      cv::rectangle(image, corner, corner + cv::Point(side, side), cv::Scalar(40, 60, 90), cv::FILLED);
+    }
+    cv::imwrite(folder.file("many.png"), image);
+    const Extraction found = extract(folder.file("many.png"));
+    EXPECT_EQ(found.pieces.size(), 25U);
+    const bool doubted = std::ranges::any_of(found.notes, [](const std::string& note) {
+      return note.find("letters or specks") != std::string::npos;
+    });
+    EXPECT_EQ(doubted, side == 60) << side;
+  }
 }
 
 TEST(Extract, SmallPieceIsToldAndTakenIfAskedFor) {
