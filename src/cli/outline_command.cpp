@@ -76,6 +76,8 @@ void add_picture_options(CLI::App& app, outline::ExtractOptions& options) {
       ->group("Input");
   app.add_flag("--keep-core", options.keep_core, "torn prints: keep the white rims along their tears")
       ->group("Input");
+  app.add_flag("--keep-threads", options.keep_threads, "keep hairs and threads that run out of pieces")
+      ->group("Input");
   app.add_flag("--part-touching", options.part_touching, "part pieces of a picture where they touch")
       ->group("Input");
 }

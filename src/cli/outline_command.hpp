@@ -26,7 +26,7 @@ void add_outline_method(CLI::App& app, OutlineMethod& method);
 /// Adds --calibration, which goes with it.
 void add_calibration(CLI::App& app, std::optional<std::string>& calibration);
 
-/// Adds --dust, --keep-core and --part-touching.
+/// Adds --dust, --keep-core, --keep-threads and --part-touching.
 void add_picture_options(CLI::App& app, outline::ExtractOptions& options);
 
 /// Reads a calibration into the options, if one is given.

@@ -151,12 +151,13 @@ class OutlineMatchCommand final : public Command {
     if (!mesh::has_scan_name(path_a_) || !mesh::has_scan_name(path_b_))
       throw UsageError("A B", "one is a scan and the other is flat", "give two of a kind");
     const bool dust = pictures_.dust != outline::ExtractOptions{}.dust;
-    if (out_ || calibration_ || dust || pictures_.keep_core || pictures_.part_touching ||
-        method_ != OutlineMethod::Automatic) {
+    if (out_ || calibration_ || dust || pictures_.keep_core || pictures_.keep_threads ||
+        pictures_.part_touching || method_ != OutlineMethod::Automatic) {
       throw UsageError(out_                      ? "--out"
                        : calibration_            ? "--calibration"
                        : dust                    ? "--dust"
                        : pictures_.keep_core     ? "--keep-core"
+                       : pictures_.keep_threads  ? "--keep-threads"
                        : pictures_.part_touching ? "--part-touching"
                                                  : "--method",
                        "is for flat pieces, and these are scans", "leave it out, or use rejoin match");

@@ -12,6 +12,7 @@
 #include "outline/detail/contour.hpp"
 #include "outline/detail/coverage.hpp"
 #include "outline/detail/necks.hpp"
+#include "outline/detail/threads.hpp"
 #include "outline/detail/torn_core.hpp"
 #include "outline/polygon.hpp"
 #include "picture/image_file.hpp"
@@ -59,6 +60,8 @@ constexpr double kHardRaster = 0.29;
 /// What is left out as dust may be none if it covers this many pixels and this share of what would not be dust.
 constexpr double kLargestSpeck = 400.0;
 constexpr double kDoubtfulDust = 0.1;
+/// A hole with no more of the piece between it and the outside is a bay whose mouth closed in the picture, pixels.
+constexpr double kMouth = 4.0;
 /// A piece that is so many times as wide as its neck may be two.
 constexpr double kDoubtfulNeck = 4.0;
 
@@ -305,11 +308,44 @@ bool part_touching(cv::Mat& field, double largest, const ExtractOptions& options
   return true;
 }
 
+/// Whether a hole is a bay whose mouth closed in the picture, so that what lay in it once is missing there.
+bool is_closed_bay(const Polygon& hole, const std::vector<Polygon>& outer) {
+  const auto [low, high] = box_of(hole);
+  const auto in_reach = [&](const glm::dvec2& p) {
+    return glm::all(glm::greaterThan(p, low - kMouth)) && glm::all(glm::lessThan(p, high + kMouth));
+  };
+  for (const Polygon& polygon : outer) {
+    for (const glm::dvec2& p : polygon) {
+      if (!in_reach(p)) continue;
+      if (std::ranges::any_of(hole, [&](const glm::dvec2& q) { return glm::distance(p, q) < kMouth; }))
+        return true;
+    }
+  }
+  return false;
+}
+
+/// Takes hairs and loose threads off the pieces, and tells it.
+void drop_threads(cv::Mat& field, std::vector<std::string>& notes) {
+  const std::vector<detail::Thread> threads = detail::take_off_threads(field);
+  if (threads.empty()) return;
+  notes.push_back(
+      fmt::format("{} as of a hair, thread or line of the background run{} out of pieces, the longest {:.0f} "
+                  "pixels long at "
+                  "x {}, y {}, and {} left out: --keep-threads keeps {}",
+                  counted(threads.size(), "narrow strip"), threads.size() == 1 ? "s" : "", threads[0].length,
+                  threads[0].place.x, threads[0].place.y, threads.size() == 1 ? "is" : "are",
+                  threads.size() == 1 ? "it" : "them"));
+}
+
 /// Leaves out what is dust beside the largest piece, and tells if it may be none.
 /// \param percent  of the largest's area
 void drop_dust(Loops& loops, double percent, std::vector<std::string>& notes) {
   const double least = percent / 100.0 * signed_area(loops.outer[0]);
-  loops.holes.erase(first_below(least, loops.holes), loops.holes.end());
+  const auto small = first_below(least, loops.holes);
+  const auto specks_from = first_below(std::min(least, kLargestSpeck), loops.holes);
+  const auto no_bays = std::stable_partition(
+      small, specks_from, [&](const Polygon& hole) { return is_closed_bay(hole, loops.outer); });
+  loops.holes.erase(no_bays, loops.holes.end());
   const auto dust = first_below(least, loops.outer);
   const auto specks = first_below(std::max(kLargestSpeck, kDoubtfulDust * least), loops.outer);
   if (dust < specks) {
@@ -333,6 +369,7 @@ Extraction extract(const std::string& path, const ExtractOptions& options) {
     result.notes.emplace_back(
         "the paper's white core shows along its tears and is left out: --keep-core keeps it");
   }
+  if (!options.keep_threads) drop_threads(coverage.field, result.notes);
   std::vector<Polygon> all = detail::contours(coverage.field, 0.5F, kLeastPoints);
   const bool hard = detail::raster_of(all) > kStaircase;
   if (hard) {
