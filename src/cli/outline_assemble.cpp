@@ -121,7 +121,7 @@ std::string summary(const std::vector<outline::Piece>& pieces, const outline::As
 class OutlineAssembleCommand final : public Command {
  public:
   void define(CLI::App& app) override {
-    app.add_option("DIR", folder_, "folder of pieces: png, jpg, tif, csv, svg or geojson")
+    app.add_option("DIR", folder_, "folder or file of pieces: png, jpg, tif, csv, svg, geojson")
         ->required()
         ->group("Input");
     app.add_option("--json", json_, "write poses and joins (-: to stdout)")

@@ -256,6 +256,8 @@ std::optional<std::string> doubt_units(const std::vector<Piece>& pieces) {
       longest->name, length(*longest) / usual);
 }
 
+namespace {
+
 /// Adds what a file of a folder holds, or why it cannot be used.
 /// \return whether it can
 bool add_file(const fs::path& file, const ExtractOptions& options, PieceSet& all) {
@@ -281,12 +283,18 @@ bool add_file(const fs::path& file, const ExtractOptions& options, PieceSet& all
   }
 }
 
-PieceSet read_folder(const std::string& folder, const ExtractOptions& options, const Context& context) {
+/// What lies in a folder.
+struct Listing {
+  std::vector<fs::path> files;                 ///< that may be pieces, in the order of their names
+  std::vector<fs::path> others;                ///< pictures of kinds that are not read
+  std::map<std::string, std::size_t> folders;  ///< inside it, with how many files of pieces
+  std::vector<std::string> results;            ///< names of pictures that are written as results
+};
+
+/// \throws IoError, InputError as read_folder()
+Listing list_folder(const std::string& folder) {
   std::error_code problem;
-  std::vector<fs::path> files;
-  std::vector<fs::path> others;
-  std::map<std::string, std::size_t> folders;  // with how many files of pieces
-  std::vector<std::string> results;
+  Listing list;
   for (auto entry = fs::directory_iterator(folder, problem); !problem && entry != fs::directory_iterator();
        entry.increment(problem)) {
     std::error_code ignored;
@@ -294,39 +302,51 @@ PieceSet read_folder(const std::string& folder, const ExtractOptions& options, c
     if (name.starts_with('.') || name == "__MACOSX") continue;
     if (!has_piece_name(name) && fs::is_directory(entry->path(), ignored)) {
       const std::size_t count = pieces_inside(entry->path());
-      if (count > 0) folders[entry->path().string()] = count;
+      if (count > 0) list.folders[entry->path().string()] = count;
       continue;
     }
-    if (is_other_picture(entry->path())) others.push_back(entry->path());
+    if (is_other_picture(entry->path())) list.others.push_back(entry->path());
     if (!has_piece_name(entry->path().string())) continue;
-    if (!is_beside_the_pieces(entry->path().filename().string(), results)) files.push_back(entry->path());
+    if (!is_beside_the_pieces(entry->path().filename().string(), list.results))
+      list.files.push_back(entry->path());
   }
   if (problem)
     throw IoError(folder, "cannot be read (" + problem.message() + ")",
                   "give a folder of pictures or outlines");
-  if (files.empty() && !results.empty()) {
-    throw InputError(
-        folder,
-        fmt::format("holds only {} with names that rejoin gives to results ({})",
-                    counted(results.size(), "picture"), *std::min_element(results.begin(), results.end())),
-        "if they are pieces, rename them");
+  if (list.files.empty() && !list.results.empty()) {
+    throw InputError(folder,
+                     fmt::format("holds only {} with names that rejoin gives to results ({})",
+                                 counted(list.results.size(), "picture"),
+                                 *std::min_element(list.results.begin(), list.results.end())),
+                     "if they are pieces, rename them");
   }
-  std::sort(others.begin(), others.end());
-  if (files.empty()) {
+  std::sort(list.others.begin(), list.others.end());
+  if (list.files.empty()) {
     const std::string what = "holds no picture and no outline";
-    if (!folders.empty())
+    if (!list.folders.empty())
       throw InputError(folder, what + ", but a folder with some, which is not looked into",
-                       "give " + folders.begin()->first);
-    if (!others.empty())
-      throw InputError(folder, what + " of a kind that is read, but " + others.front().filename().string(),
+                       "give " + list.folders.begin()->first);
+    if (!list.others.empty())
+      throw InputError(folder,
+                       what + " of a kind that is read, but " + list.others.front().filename().string(),
                        "save such pictures as png, jpg or tif");
     throw InputError(folder, what, "put png, jpg, tif, csv, svg or geojson files there");
   }
-  std::sort(files.begin(), files.end());
+  std::sort(list.files.begin(), list.files.end());
   // Raw pictures that lie beside what was made of them.
-  std::erase_if(others, [&](const fs::path& other) {
-    return std::ranges::any_of(files, [&](const fs::path& file) { return file.stem() == other.stem(); });
+  std::erase_if(list.others, [&](const fs::path& other) {
+    return std::ranges::any_of(list.files, [&](const fs::path& file) { return file.stem() == other.stem(); });
   });
+  return list;
+}
+
+}  // namespace
+
+PieceSet read_folder(const std::string& folder, const ExtractOptions& options, const Context& context) {
+  std::error_code ignored;
+  const bool is_file = has_piece_name(folder) && fs::is_regular_file(folder, ignored);
+  const auto [files, others, folders, results] =
+      is_file ? Listing{{folder}, {}, {}, {}} : list_folder(folder);
   PieceSet all;
   if (!results.empty()) {
     all.notes.push_back(fmt::format("{}: {} that rejoin writes as a result ({}) {} no piece and left out",

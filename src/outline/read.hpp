@@ -32,7 +32,7 @@ bool has_piece_name(const std::string& path);
 
 /// Pieces of one file, by its name's ending:
 /// - png, jpg, jpeg, tif, tiff: pictures, see extract()
-/// - csv, txt: one outline, or several closed ones with blank lines between them, a point "x,y" a line (comma, semicolon, tab or
+/// - csv, txt: one outline, or several closed ones with blank lines between them or a column that names each point's piece ("piece,x,y"), a point "x,y" a line (comma, semicolon, tab or
 ///   blanks); "1,5;2,5", "1,5 2,5" and fields in quotes have decimal commas; a first line of words may say which columns are x and y, else they are the first two; y points up unless that line calls it y_down
 /// - svg: each closed subpath of paths, polygons, rectangles, circles and ellipses is a border, one inside another a
 ///   hole; curves are flattened, transforms applied; what is hidden, drawn twice or covers the page is left out, with a
@@ -43,7 +43,7 @@ bool has_piece_name(const std::string& path);
 /// \throws InputError its content is no outline; the message names the place
 PieceSet read_pieces(const std::string& path, const ExtractOptions& options = {});
 
-/// The pieces of all files of a folder that read_pieces() knows, but for .json (other files end so), in the order of their names; copies of one count once.
+/// The pieces of one file, as of a scan with all of them, or of all files of a folder that read_pieces() knows, but for .json (other files end so), in the order of their names; copies of one count once.
 /// A file whose name is no UTF-8 is unusable: results are JSON, in which names are keys.
 /// \throws IoError    no such folder
 /// \throws InputError no file in it is known, or none can be used

@@ -30,6 +30,15 @@ cv::Mat blot(double bump) {
   return image;
 }
 
+TEST_F(ReadFolder, OneFileWithAllOfThePiecesIsReadLikeAFolder) {
+  write("sheet.svg",
+        "<svg xmlns='http://www.w3.org/2000/svg'><path d='M0 0 H30 V20 H0 Z M50 0 H80 V40 H60 V20 H50 Z'/></svg>");
+  const PieceSet set = read_folder((folder_ / "sheet.svg").string());
+  ASSERT_EQ(set.pieces.size(), 2U);
+  EXPECT_EQ(set.pieces[0].name, "sheet.svg");
+  EXPECT_EQ(set.pieces[1].name, "sheet.svg#2");
+}
+
 TEST_F(ReadFolder, OnePictureInSeveralFormatsIsOnePiece) {
   cv::Mat deep;
   blot(30).convertTo(deep, CV_16U, 257);

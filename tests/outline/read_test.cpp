@@ -260,6 +260,22 @@ TEST_F(Read, CsvMayHoldSeveralOutlinesPartedByBlankLines) {
   EXPECT_NE(set.notes[0].find("blank lines part 2 outlines"), std::string::npos) << set.notes[0];
 }
 
+TEST_F(Read, CsvMayNameThePieceOfEachPoint) {
+  const PieceSet set = read_pieces(write("sheet.csv",
+                                         "piece,x,y\nrim,0,0\nrim,9,0\nrim,9,7\nrim,0,7\nrim,0,0\n"
+                                         "foot,20,0\nfoot,26,0\nfoot,26,5\nfoot,20,5\nfoot,20,0\n"));
+  ASSERT_EQ(set.pieces.size(), 2U);
+  EXPECT_NEAR(signed_area(set.pieces[0].outline.points), 63.0, 1e-9);
+  EXPECT_NEAR(signed_area(set.pieces[1].outline.points), 30.0, 1e-9);
+  ASSERT_EQ(set.notes.size(), 1U);
+  EXPECT_NE(set.notes[0].find("a column of names parts 2 outlines"), std::string::npos) << set.notes[0];
+}
+
+TEST_F(Read, ColumnThatNamesEveryPointPartsNothing) {
+  const PieceSet set = read_pieces(write("a.csv", "id,x,y\n1,0,0\n2,9,0\n3,9,7\n4,0,8\n"));
+  EXPECT_EQ(set.pieces.at(0).outline.points.size(), 4U);
+}
+
 TEST_F(Read, BlankLinesPartOutlinesOfFewPointsThatEndWhereTheyBegin) {
   const std::string square = "0,0\n4,0\n4,4\n0,4\n0,0\n";
   const std::string other = "10,0\n19,0\n19,9\n10,9\n10,0\n";

@@ -23,12 +23,16 @@ constexpr std::string_view kSeparators = ",; \t\r";
 constexpr std::string_view kBlanks = " \t";
 constexpr std::array<std::string_view, 5> kNamesOfX = {"x", "lon", "long", "longitude", "easting"};
 constexpr std::array<std::string_view, 4> kNamesOfY = {"y", "lat", "latitude", "northing"};
+constexpr std::array<std::string_view, 13> kNamesOfPieces = {
+    "piece",   "fragment", "sherd", "part",  "object", "outline", "contour",
+    "polygon", "name",     "label", "group", "id",     "roi"};
 constexpr const char* kCsvMend = "write \"x,y\" in each line";
 
 /// Which columns hold x and y.
 struct Columns {
   std::size_t x = 0;
   std::size_t y = 1;
+  std::optional<std::size_t> piece;  ///< which says whose outline a point is of
 
   bool first_two() const { return x == 0 && y == 1; }
 };
@@ -89,8 +93,9 @@ std::optional<Columns> named_columns(std::string_view line) {
         names, [&](std::string_view cell) { return std::ranges::find(known, name_of(cell)) != known.end(); });
     return static_cast<std::size_t>(found - names.begin());
   };
-  const Columns columns{find(kNamesOfX), find(kNamesOfY)};
+  Columns columns{find(kNamesOfX), find(kNamesOfY), find(kNamesOfPieces)};
   if (columns.x == names.size() || columns.y == names.size()) return std::nullopt;
+  if (columns.piece == names.size()) columns.piece.reset();
   return columns;
 }
 
@@ -232,6 +237,7 @@ class CsvReader {
     }
     if (!point) throw InputError(path_, fmt::format("line {} is no point", number), kCsvMend);
     require_fields(*plain, number);
+    if (columns_.piece) part_by_piece(cells(*plain));
     if (blank_ || lines.empty()) lines.emplace_back();
     blank_ = false;
     lines.back().push_back(*point);
@@ -247,6 +253,12 @@ class CsvReader {
     if (named) degrees_ = std::ranges::any_of(names, is_degrees);
     if (!named && names.size() > 2)
       notes_.push_back(path_ + ": no columns are named x and y; the first two are taken");
+  }
+
+  void part_by_piece(const std::vector<std::string_view>& row) {
+    const std::string_view piece = *columns_.piece < row.size() ? row[*columns_.piece] : std::string_view();
+    if (piece != piece_) blank_ = true;
+    piece_ = piece;
   }
 
   /// Commas that are decimal ones and part the columns too give twice as many fields as there are names.
@@ -266,8 +278,9 @@ class CsvReader {
 
   void tell_doubts() {
     if (lines.size() > 1)
-      notes_.push_back(
-          fmt::format("{}: blank lines part {} outlines, each of which is a piece", path_, lines.size()));
+      notes_.push_back(fmt::format("{}: {} {} outlines, each of which is a piece", path_,
+                                   columns_.piece ? "a column of names parts" : "blank lines part",
+                                   lines.size()));
     if (const auto doubt = doubt_ends(lines[0])) notes_.push_back(path_ + ": " + *doubt);
     if (degrees_) tell_degrees();
   }
@@ -290,6 +303,7 @@ class CsvReader {
   const std::string& path_;
   std::vector<std::string>& notes_;
   Columns columns_;
+  std::string piece_;       ///< whose the last point was
   std::size_t fields_ = 0;  ///< that are named; 0: none
   bool degrees_ = false;
   bool blank_ = false;  ///< the last line was blank
