@@ -61,6 +61,26 @@ TEST(Clean, DropsDegenerateAndDuplicateFacesAndSaysSo) {
   EXPECT_NE(loaded.warnings[1].find("dropped 1 of 5 faces that are there twice"), std::string::npos);
 }
 
+// Nearly every scan has a few: the lines would hide what matters.
+TEST(Clean, SaysNothingOfAFewFacesThatWereMended) {
+  constexpr int kSide = 30;
+  std::string text;
+  for (int v = 0; v <= kSide; ++v)
+    for (int u = 0; u <= kSide; ++u) text += "v " + std::to_string(u) + " " + std::to_string(v) + " 0\n";
+  for (int v = 0; v < kSide; ++v) {
+    for (int u = 1; u <= kSide; ++u) {
+      const int k = v * (kSide + 1) + u;
+      const std::string below = std::to_string(k + 1);
+      const std::string above = std::to_string(k + kSide + 1);
+      text += "f " + std::to_string(k) + " " + below + " " + above + "\n";
+      text += "f " + below + " " + std::to_string(k + kSide + 2) + " " + above + "\n";
+    }
+  }
+  const Loaded loaded = load_text("a.obj", text + "f 1 2 2\n");
+  EXPECT_EQ(loaded.mesh.faces.size(), 2U * kSide * kSide);
+  EXPECT_TRUE(loaded.warnings.empty()) << loaded.warnings[0];
+}
+
 TEST(Clean, LoadsASingleTriangle) {
   const Loaded loaded = load_text("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   EXPECT_EQ(loaded.mesh.faces.size(), 1U);

@@ -134,6 +134,12 @@ void weld_loose(Loaded& loaded, const std::string& name) {
   }
 }
 
+/// Whether mended faces are more than nearly every scan has.
+bool are_worth_telling(std::size_t mended, std::size_t faces) {
+  constexpr double kFewFaces = 1e-3;
+  return kFewFaces * static_cast<double>(faces) < static_cast<double>(mended);
+}
+
 void clean_faces(Loaded& loaded, const std::string& name, Content content) {
   Mesh& mesh = loaded.mesh;
   const std::size_t before = mesh.faces.size();
@@ -145,11 +151,11 @@ void clean_faces(Loaded& loaded, const std::string& name, Content content) {
     throw InputError(name, fmt::format("{} of its {} faces have no area", dropped.degenerate, before),
                      "export the scan again, with more digits if its coordinates are large");
   }
-  if (dropped.degenerate > 0) {
+  if (are_worth_telling(dropped.degenerate, before)) {
     loaded.warnings.push_back(
         fmt::format("{}: dropped {} of {} faces that have no area", name, dropped.degenerate, before));
   }
-  if (dropped.duplicate > 0) {
+  if (are_worth_telling(dropped.duplicate, before)) {
     loaded.warnings.push_back(
         fmt::format("{}: dropped {} of {} faces that are there twice", name, dropped.duplicate, before));
   }
@@ -181,7 +187,7 @@ void clean_faces(Loaded& loaded, const std::string& name, Content content) {
   require_usual_size(mesh, name);
   require_area(mesh, name);
   const Turned turned = orient_faces(mesh);
-  if (turned.inconsistent > 0) {
+  if (are_worth_telling(turned.inconsistent, before)) {
     loaded.warnings.push_back(
         fmt::format("{}: turned {} of {} faces that were wound against their neighbours", name,
                     turned.inconsistent, before));
