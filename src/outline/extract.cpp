@@ -328,13 +328,13 @@ bool is_closed_bay(const Polygon& hole, const std::vector<Polygon>& outer) {
 void drop_threads(cv::Mat& field, std::vector<std::string>& notes) {
   const std::vector<detail::Thread> threads = detail::take_off_threads(field);
   if (threads.empty()) return;
-  notes.push_back(
-      fmt::format("{} as of a hair, thread or line of the background run{} out of pieces, the longest {:.0f} "
-                  "pixels long at "
-                  "x {}, y {}, and {} left out: --keep-threads keeps {}",
-                  counted(threads.size(), "narrow strip"), threads.size() == 1 ? "s" : "", threads[0].length,
-                  threads[0].place.x, threads[0].place.y, threads.size() == 1 ? "is" : "are",
-                  threads.size() == 1 ? "it" : "them"));
+  const bool one = threads.size() == 1;
+  notes.push_back(fmt::format(
+      "{} as of {} out of pieces and {} left out, the longest {:.0f} pixels long at x {}, y {}: "
+      "--keep-threads keeps {}",
+      counted(threads.size(), "narrow strip"),
+      one ? "a hair, thread or line of the background runs" : "hairs, threads or lines of the background run",
+      one ? "is" : "are", threads[0].length, threads[0].place.x, threads[0].place.y, one ? "it" : "them"));
 }
 
 /// Leaves out what is dust beside the largest piece, and tells if it may be none.

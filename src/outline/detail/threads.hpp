@@ -8,7 +8,7 @@ namespace rejoin::outline::detail {
 
 /// What runs out of a piece.
 struct Thread {
-  cv::Point place;    ///< a pixel of it
+  cv::Point place;    ///< its pixel farthest from the piece
   double length = 0;  ///< along it, pixels
 };
 
