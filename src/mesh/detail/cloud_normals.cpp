@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <queue>
 
 #include "core/parallel.hpp"
+#include "mesh/detail/agreeing_normals.hpp"
 #include "mesh/detail/directions.hpp"
 #include "mesh/detail/local_fit.hpp"
 #include "mesh/detail/outlook.hpp"
@@ -16,80 +16,10 @@ namespace rejoin::mesh::detail {
 namespace {
 
 constexpr std::size_t kAxes = 32;   // and their opposites
-constexpr float kAcross = 3.0F;     // what surface variation costs a walk, of what a turn by 90 degrees does
 constexpr float kOpposite = -0.5F;  // cosine of normals
 constexpr double kStray = 5e-4;     // share of neighbours with opposite normals that a cloud is let pass with
 constexpr double kAgreeing = 0.95;  // share of good normals that turning along the surface leaves, or turns
 constexpr double kBetter = 0.2;     // of all rays, that leave from the front and not from the back
-
-using MutualLists = std::vector<std::vector<std::uint32_t>>;
-
-/// Made symmetric, so that a walk reaches whole parts.
-MutualLists mutual(const NeighbourLists& lists) {
-  MutualLists both(lists.size());
-  for (std::uint32_t i = 0; i < lists.size(); ++i) both[i].assign(lists[i].begin(), lists[i].end());
-  for (std::uint32_t i = 0; i < lists.size(); ++i) {
-    for (const std::uint32_t k : lists[i]) both[k].push_back(i);
-  }
-  return both;
-}
-
-/// An undecided point, reached from a decided one.
-struct Step {
-  float cost;
-  std::uint32_t from;
-  std::uint32_t to;
-  bool operator>(const Step& other) const {
-    if (cost != other.cost) return cost > other.cost;
-    return to != other.to ? to > other.to : from > other.from;
-  }
-};
-
-/// Turns normals to agree with each other within every part, where the surface bends least first.  Where planes were fitted across a sharp
-/// edge, their normals are alike on both sides of it and still say nothing of which side is out: such places come last.
-/// \source Hoppe et al. 1992 (the tree of least turns)
-class Walker {
- public:
-  /// \param variation  of the points' planes; empty: the normals are none of planes
-  Walker(const MutualLists& neighbours, std::vector<glm::vec3>& normals, const std::vector<float>& variation)
-      : neighbours_(neighbours), normals_(normals), variation_(variation), decided_(normals.size(), false) {}
-
-  bool reached(std::uint32_t i) const { return decided_[i]; }
-
-  /// The points of the seed's part.
-  std::vector<std::uint32_t> walk(std::uint32_t seed) {
-    std::vector<std::uint32_t> part;
-    decide(seed, part);
-    while (!steps_.empty()) {
-      const Step step = steps_.top();
-      steps_.pop();
-      if (decided_[step.to]) continue;
-      if (glm::dot(normals_[step.from], normals_[step.to]) < 0) normals_[step.to] = -normals_[step.to];
-      decide(step.to, part);
-    }
-    return part;
-  }
-
- private:
-  void decide(std::uint32_t i, std::vector<std::uint32_t>& part) {
-    decided_[i] = true;
-    part.push_back(i);
-    for (const std::uint32_t k : neighbours_[i]) {
-      if (!decided_[k]) steps_.push({cost(i, k), i, k});
-    }
-  }
-
-  float cost(std::uint32_t i, std::uint32_t k) const {
-    const float turn = 1.0F - std::abs(glm::dot(normals_[i], normals_[k]));
-    return variation_.empty() ? turn : turn + kAcross * std::max(variation_[i], variation_[k]);
-  }
-
-  const MutualLists& neighbours_;
-  std::vector<glm::vec3>& normals_;
-  const std::vector<float>& variation_;
-  std::vector<bool> decided_;
-  std::priority_queue<Step, std::vector<Step>, std::greater<>> steps_;
-};
 
 /// Whether the normals at the furthest points in all directions point inwards, taken together.
 bool points_inwards(const std::vector<std::uint32_t>& part, const std::vector<glm::vec3>& points,
@@ -116,11 +46,7 @@ bool points_inwards(const std::vector<std::uint32_t>& part, const std::vector<gl
 
 void turn_outwards(const NeighbourLists& lists, const std::vector<glm::vec3>& points,
                    std::vector<glm::vec3>& normals, const std::vector<float>& variation) {
-  const MutualLists neighbours = mutual(lists);
-  Walker walker(neighbours, normals, variation);
-  for (std::uint32_t seed = 0; seed < points.size(); ++seed) {
-    if (walker.reached(seed)) continue;
-    const std::vector<std::uint32_t> part = walker.walk(seed);
+  for (const std::vector<std::uint32_t>& part : make_normals_agree(points, lists, variation, normals)) {
     if (!points_inwards(part, points, normals)) continue;
     for (const std::uint32_t i : part) normals[i] = -normals[i];
   }

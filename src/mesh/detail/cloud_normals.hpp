@@ -10,9 +10,8 @@
 
 namespace rejoin::mesh::detail {
 
-/// Unit normals from the neighbourhood of every point, turned to agree with their neighbours' along a spanning tree of the most
-/// parallel ones that lie where the surface varies least (Hoppe 1992, Pauly 2002), and every part so that its furthest points in all directions, which are on its outside whatever
-/// its shape, have outward normals.
+/// Unit normals from the neighbourhood of every point (Hoppe et al. 1992), turned to agree with their neighbours' (make_normals_agree()),
+/// and every part so that its furthest points in all directions, which are on its outside whatever its shape, have outward normals.
 /// \param near  of the points
 std::vector<glm::vec3> estimate_normals(const std::vector<glm::vec3>& points, const NeighbourLists& near);
 
