@@ -13,6 +13,7 @@
 #include "mesh/detail/facet_table.hpp"
 #include "mesh/detail/flanks.hpp"
 #include "mesh/detail/grow.hpp"
+#include "mesh/detail/islands.hpp"
 #include "mesh/detail/local_fit.hpp"
 #include "mesh/detail/mean_normals.hpp"
 #include "mesh/detail/open_walls.hpp"
@@ -405,7 +406,10 @@ Segmentation segment(const Mesh& mesh, double size, PieceKind kind) {
   const bool strips = thin && s.wall_thickness < kStripOfSize * size;
   const std::size_t smallest = detail::smallest_facet(s);
   auto members = detail::grow_facets(ground, strips ? kStripCone : detail::kCone, smallest);
-  if (thin) detail::take_flanks_for_walls(s, members, rays.length, near);
+  if (thin) {
+    detail::take_flanks_for_walls(s, members, rays.length, near);
+    detail::add_islands(ground, s.sample_area, smallest, members);
+  }
   static_cast<Cut&>(s) = detail::cut_into(s, std::move(members));
   if (!thin) s.creased = detail::cut_into(s, detail::facets_between_creases(ground, smallest));
   return s;

@@ -56,7 +56,7 @@ struct Segmentation : Cut {
 ///
 /// Thin-walled pieces: a point whose inward ray meets a parallel surface from behind at 0.5 to 1.8 wall
 /// thicknesses is original surface, and so are facets about as wide as what is behind them is thick, or wider (a foot); the rest is fracture; then
-/// points follow their surroundings.  Where breaks hardly go through the walls, both are the faces of a flake, which is solid.  Solid pieces: every facet counts as fracture, as
+/// points follow their surroundings.  Broken islands amid the wall, as the scars of handles are, become facets as a whole where their parts are too small.  Where breaks hardly go through the walls, both are the faces of a flake, which is solid.  Solid pieces: every facet counts as fracture, as
 /// roughness does not tell a break from a carved or weathered surface.  Facets grow over smoothed normals from
 /// the flattest places, until they have bent by an angle; of solid pieces they are cut along the creases, too, as a break that
 /// one of the cuts parts is often whole in the other. \pre the mesh has faces \source papaioannou 2002,
