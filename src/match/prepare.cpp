@@ -60,7 +60,7 @@ void doubt_coarse_walls(Fragment& fragment) {
   const double across = edge > 0 ? fragment.facets.wall_thickness / edge : 0.0;
   if (across <= 0.0 || across >= kEdgesAcross) return;
   fragment.warnings.push_back(
-      fmt::format("{}: its mesh has {:.2f} edges across the wall ({:.3g} thick); joins are hardly sure with "
+      fmt::format("{}: its mesh has {:.2f} edges across the wall ({:.3g} thick); few joins are sure with "
                   "fewer than {:.1f}: scan or export it more finely",
                   fragment.path, across, fragment.facets.wall_thickness, kEdgesAcross));
 }

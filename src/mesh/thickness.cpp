@@ -25,6 +25,7 @@ constexpr double kLeastParallel = 0.2;  // of a thin piece's surface: cracks of 
 constexpr double kLeastSmooth = 0.15;   // of the surface of a sherd with smooth walls is parallel
 constexpr double kSlab = 0.7;           // of the squares of its normals lie along one direction
 constexpr float kSmoothWall = 0.5F;     // roughness of such walls, of that of the rest, at most
+constexpr double kRougherWall = 0.75;   // quantile: one wall may be carved and the other sawn
 constexpr double kNearLow = 0.6;        // of the thickness
 constexpr double kNearHigh = 1.6;
 constexpr double kEvenLow = 0.8;  // the same of walls that run parallel
@@ -54,7 +55,8 @@ float between(const std::vector<bool>& parallel, const std::vector<float>& rough
   const float smooth = median(walls);
   const float rough = median(rest);
   if (smooth >= kSmoothWall * rough) return 0.0F;
-  return std::max(std::sqrt(smooth * rough),
+  const float rougher = quantile(walls, kRougherWall);
+  return std::max(std::sqrt(rougher * rough),
                   kSmoothWall * kSmoothWall * rough);  // of planes the first is nought
 }
 

@@ -124,6 +124,19 @@ TEST(Thickness, WallsOfASmallSherdAreSmoothAndAboutFlat) {
   EXPECT_EQ(walls(0.01F, around).thickness, 0.0) << "a rod";
 }
 
+// As of a slab whose face is carved and whose back is sawn, breaks being as rough as in the test above.
+TEST(Thickness, RougherOfTwoWallsIsNoBreak) {
+  const InwardRays rays = rays_of_two_walls(0.9F);
+  const std::vector<glm::vec3> normals(rays.length.size(), glm::vec3(0, 0, 1));
+  std::vector<float> roughness;
+  for (std::size_t k = 0; k < rays.length.size(); ++k)
+    roughness.push_back(rays.square[k] <= 0.95F ? 0.04F : k % 5 < 3 ? 0.01F : 0.022F);
+  const Walls walls = find_walls(rays, normals, roughness, 100.0);
+  EXPECT_NEAR(walls.thickness, 16.0, 0.3);
+  EXPECT_GT(walls.roughest, 0.022F + 0.005F);
+  EXPECT_LT(walls.roughest, 0.04F - 0.005F);
+}
+
 TEST(Thickness, SheetThinnerThanAllThatIsCountedHasNoWall) {
   EXPECT_EQ(thickness_of({std::vector<float>(1000, 0.001F), std::vector<float>(1000, 1.0F), {}}), 0.0);
 }
