@@ -32,7 +32,8 @@ cv::Mat blot(double bump) {
 
 TEST_F(ReadFolder, OneFileWithAllOfThePiecesIsReadLikeAFolder) {
   write("sheet.svg",
-        "<svg xmlns='http://www.w3.org/2000/svg'><path d='M0 0 H30 V20 H0 Z M50 0 H80 V40 H60 V20 H50 Z'/></svg>");
+        "<svg xmlns='http://www.w3.org/2000/svg'><path d='M0 0 H30 V20 H0 Z M50 0 H80 V40 H60 V20 H50 "
+        "Z'/></svg>");
   const PieceSet set = read_folder((folder_ / "sheet.svg").string());
   ASSERT_EQ(set.pieces.size(), 2U);
   EXPECT_EQ(set.pieces[0].name, "sheet.svg");
