@@ -267,6 +267,8 @@ TEST_F(Read, CsvMayNameThePieceOfEachPoint) {
   ASSERT_EQ(set.pieces.size(), 2U);
   EXPECT_NEAR(signed_area(set.pieces[0].outline.points), 63.0, 1e-9);
   EXPECT_NEAR(signed_area(set.pieces[1].outline.points), 30.0, 1e-9);
+  EXPECT_EQ(set.pieces[0].outline.label, "rim");
+  EXPECT_EQ(set.pieces[1].outline.label, "foot");
   ASSERT_EQ(set.notes.size(), 1U);
   EXPECT_NE(set.notes[0].find("a column of names parts 2 outlines"), std::string::npos) << set.notes[0];
 }
@@ -274,6 +276,7 @@ TEST_F(Read, CsvMayNameThePieceOfEachPoint) {
 TEST_F(Read, ColumnThatNamesEveryPointPartsNothing) {
   const PieceSet set = read_pieces(write("a.csv", "id,x,y\n1,0,0\n2,9,0\n3,9,7\n4,0,8\n"));
   EXPECT_EQ(set.pieces.at(0).outline.points.size(), 4U);
+  EXPECT_EQ(set.pieces[0].outline.label, "");
 }
 
 TEST_F(Read, BlankLinesPartOutlinesOfFewPointsThatEndWhereTheyBegin) {

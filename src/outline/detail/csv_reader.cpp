@@ -220,7 +220,9 @@ class CsvReader {
     tell_doubts();
   }
 
-  std::vector<std::vector<glm::dvec2>> lines;  ///< what blank lines part, if these are outlines
+  std::vector<std::vector<glm::dvec2>>
+      lines;                       ///< what blank lines or names of pieces part, if these are outlines
+  std::vector<std::string> names;  ///< of each of them; empty: none
   bool y_up = true;
 
  private:
@@ -238,7 +240,10 @@ class CsvReader {
     if (!point) throw InputError(path_, fmt::format("line {} is no point", number), kCsvMend);
     require_fields(*plain, number);
     if (columns_.piece) part_by_piece(cells(*plain));
-    if (blank_ || lines.empty()) lines.emplace_back();
+    if (blank_ || lines.empty()) {
+      lines.emplace_back();
+      names.push_back(piece_);
+    }
     blank_ = false;
     lines.back().push_back(*point);
     more_columns_ = more_columns_ && cells(*plain).size() > 2;
@@ -274,6 +279,7 @@ class CsvReader {
     for (std::size_t i = 1; i < lines.size(); ++i)
       lines[0].insert(lines[0].end(), lines[i].begin(), lines[i].end());
     lines.resize(1);
+    names.assign(1, {});
   }
 
   void tell_doubts() {
@@ -334,7 +340,7 @@ std::vector<Rings> read_csv(const std::string& path, const std::string& file,
   std::vector<Rings> outlines;
   for (std::size_t i = 0; i < reader.lines.size(); ++i) {
     const std::string place = reader.lines.size() > 1 ? fmt::format("outline {}", i + 1) : "";
-    outlines.push_back({{std::move(reader.lines[i])}, place, reader.y_up});
+    outlines.push_back({{std::move(reader.lines[i])}, place, reader.y_up, valid_utf8(reader.names[i])});
   }
   return outlines;
 }
