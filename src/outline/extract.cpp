@@ -310,9 +310,10 @@ bool part_touching(cv::Mat& field, double largest, const ExtractOptions& options
 
 /// Whether a hole is a bay whose mouth closed in the picture, so that what lay in it once is missing there.
 bool is_closed_bay(const Polygon& hole, const std::vector<Polygon>& outer) {
-  const auto [low, high] = box_of(hole);
+  const auto box = box_of(hole);
   const auto in_reach = [&](const glm::dvec2& p) {
-    return glm::all(glm::greaterThan(p, low - kMouth)) && glm::all(glm::lessThan(p, high + kMouth));
+    return glm::all(glm::greaterThan(p, box.first - kMouth)) &&
+           glm::all(glm::lessThan(p, box.second + kMouth));
   };
   for (const Polygon& polygon : outer) {
     for (const glm::dvec2& p : polygon) {
