@@ -82,7 +82,7 @@ void write_thinned(const std::string& scan, double every, const std::string& clo
   write_file(cloud, text);
 }
 
-// Its wall is 6 thick: points 4 apart on both sides of it are mixed up, those 1.3 apart are not.
+// Its wall is 6 thick: points 6.5 apart on both sides of it are mixed up, those 4 apart are not, and those 1.3 apart suffice.
 TEST(Thinned, CloudWhoseSurfacesAreMisjudgedIsToldByFacetsAndMatch) {
   const TemporaryFolder folder;
   const std::string scan = REJOIN_SOURCE_DIR "/meshes/bowl/a.drc";
@@ -90,6 +90,13 @@ TEST(Thinned, CloudWhoseSurfacesAreMisjudgedIsToldByFacetsAndMatch) {
   write_thinned(scan, 3, cloud);
   EXPECT_EQ(run({"facets", cloud}).err.find("too far apart"), std::string::npos);
   write_thinned(scan, 27, cloud);
+  const std::string coarse = run({"facets", cloud}).err;
+  EXPECT_EQ(coarse.find("too far apart"), std::string::npos) << coarse;
+  const std::string told = "edges across the wall (";
+  const std::size_t wall = coarse.find(told);
+  ASSERT_NE(wall, std::string::npos) << coarse;
+  EXPECT_NEAR(std::stod(coarse.substr(wall + told.size())), 6.0, 0.3);
+  write_thinned(scan, 80, cloud);
   for (const std::vector<std::string>& command :
        {std::vector<std::string>{"facets", cloud}, {"match", cloud, scan, "--near", folder / "near.txt"}}) {
     write_file(folder / "near.txt", "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
