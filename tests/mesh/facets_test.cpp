@@ -209,8 +209,8 @@ double share_of(const Segmentation& s, Surface wanted, Among among) {
   return right / static_cast<double>(std::max(1, all));
 }
 
-/// What is left of a handle: a round stub, all of whose sides together are as large as a facet, none of them alone.
-TEST(Facets, StubAmidAWallIsABreak) {
+/// What is left of a handle: a round stump, all of whose sides together are as large as a facet, none of them alone.
+TEST(Facets, StumpAmidAWallIsABreak) {
   const float radius = 4.5F;
   const glm::vec3 middle(50, 40, 5);
   const Mesh plate = test::box({100, 80, 5}, 240, [&](float x, float y) {
@@ -218,13 +218,13 @@ TEST(Facets, StubAmidAWallIsABreak) {
     return across < radius ? std::sqrt(radius * radius - across * across) : 0.0F;
   });
   const Segmentation s = segment(plate);
-  const auto is_stub = [&](const Facet& f) {
+  const auto is_stump = [&](const Facet& f) {
     return f.fracture && glm::distance(f.centre, glm::dvec3(middle)) < static_cast<double>(radius);
   };
-  ASSERT_EQ(std::ranges::count_if(s.facets, is_stub), 1);
-  const Facet& stub = *std::ranges::find_if(s.facets, is_stub);
-  EXPECT_GT(stub.normal.z, 0.99);
-  EXPECT_GT(stub.area, 0.5 * 2 * std::numbers::pi * radius * radius);  // its steep foot may be missing
+  ASSERT_EQ(std::ranges::count_if(s.facets, is_stump), 1);
+  const Facet& stump = *std::ranges::find_if(s.facets, is_stump);
+  EXPECT_GT(stump.normal.z, 0.99);
+  EXPECT_GT(stump.area, 0.5 * 2 * std::numbers::pi * radius * radius);  // its steep foot may be missing
 }
 
 TEST(Facets, BreakThatRunsAskewThroughAWallIsNoWall) {

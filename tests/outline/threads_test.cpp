@@ -37,13 +37,6 @@ Extraction extracted_from(const cv::Mat& cover, const ExtractOptions& options = 
   return extract(folder.file("piece.png"), options);
 }
 
-double length_of(const Outline& outline) {
-  double length = 0.0;
-  for (std::size_t i = 0; i < outline.points.size(); ++i)
-    length += glm::distance(outline.points[i], outline.points[(i + 1) % outline.points.size()]);
-  return length;
-}
-
 void curl(cv::Mat& cover) {
   const std::vector<cv::Point> hair{{100, 60}, {140, 80}, {160, 120}, {210, 130}, {230, 180}, {280, 200}};
   cv::polylines(cover, hair, false, cv::Scalar(1.0), 2);
@@ -54,7 +47,7 @@ TEST(Threads, HairIsTakenOffToTheBorderOfThePiece) {
   curl(cover);
   const Extraction found = extracted_from(cover);
   ASSERT_EQ(found.pieces.size(), 1U);
-  expect_disc(found.pieces[0], 2.5);  // a stub as deep as the hair is wide may stay
+  expect_disc(found.pieces[0], 2.5);  // a stump as deep as the hair is wide may stay
   ASSERT_EQ(found.notes.size(), 1U);
   EXPECT_NE(found.notes[0].find("1 narrow strip as of a hair"), std::string::npos) << found.notes[0];
 }
@@ -66,7 +59,8 @@ TEST(Threads, StayWhereTheUserSaysSo) {
   options.keep_threads = true;
   const Extraction found = extracted_from(cover, options);
   ASSERT_EQ(found.pieces.size(), 1U);
-  EXPECT_GT(length_of(found.pieces[0]), 2.0 * M_PI * testing::kRadius + 300.0) << "out along it and back";
+  EXPECT_GT(perimeter(found.pieces[0].points), 2.0 * M_PI * testing::kRadius + 300.0)
+      << "out along it and back";
   EXPECT_TRUE(found.notes.empty());
 }
 

@@ -16,7 +16,7 @@ namespace rejoin::mesh::detail {
 /// \param variation  of the planes that the normals are of (PlaneFit), each 0 .. 1/3; empty: they are none of planes
 /// \param normals    unit
 /// \return the points of every part that hangs together: within it normals agree, as a whole it may still have to be turned
-/// \source König and Gumhold 2009 (what agrees: the normal at the other end of a circular arc); Keuper et al. 2015 (greedy additive
+/// \source Koenig and Gumhold 2009 (what agrees: the normal at the other end of a circular arc); Keuper et al. 2015 (greedy additive
 ///         edge contraction)
 std::vector<std::vector<std::uint32_t>> make_normals_agree(const std::vector<glm::vec3>& points,
                                                            const NeighbourLists& near,

@@ -24,7 +24,6 @@ struct Narrow {
   double beside = 0;  // pixels next to something wide
   double reach = 0;   // farthest from what is wide, at
   cv::Point tip;
-  bool hangs = false;  // on a piece
 
   double length() const { return pixels / width; }
 };
@@ -36,8 +35,9 @@ cv::Mat distances(const cv::Mat& mask) {
 }
 
 /// Whether one of the wide regions that a narrow one touches is as deep as a piece.
-/// \param around  the narrow region and the pixels next to it
-bool hangs_on_piece(const cv::Mat& around, const cv::Mat& wide) {
+bool hangs_on_piece(const cv::Mat& narrow, const cv::Mat& wide) {
+  cv::Mat around;
+  cv::dilate(narrow, around, cv::Mat());
   cv::Mat labels;
   cv::connectedComponents(wide, labels, 8, CV_32S);
   const cv::Mat touched = around & wide;
@@ -63,13 +63,12 @@ Narrow measured(const cv::Mat& narrow, const cv::Mat& wide) {
   cv::Mat around;
   cv::dilate(wide, around, cv::Mat());
   region.beside = cv::countNonZero(around & narrow);
-  cv::dilate(narrow, around, cv::Mat());
-  region.hangs = hangs_on_piece(around, wide);
   return region;
 }
 
-bool is_thread(const Narrow& narrow) {
-  return narrow.hangs && narrow.reach >= kLeastReach && narrow.length() >= kLeastLength &&
+/// Whether a region is as slender as a thread and leads away from what is wide.
+bool looks_like_thread(const Narrow& narrow) {
+  return narrow.reach >= kLeastReach && narrow.length() >= kLeastLength &&
          narrow.length() >= kLeastSlender * narrow.width && narrow.beside <= kMostBeside * narrow.pixels;
 }
 
@@ -93,7 +92,7 @@ std::vector<Thread> take_off_threads(cv::Mat& field) {
         cv::Rect({0, 0}, field.size());
     const cv::Mat narrow = labels(window) == label;
     const Narrow region = measured(narrow, wide(window));
-    if (!is_thread(region)) continue;
+    if (!looks_like_thread(region) || !hangs_on_piece(narrow, wide(window))) continue;
     threads.push_back({region.tip + window.tl(), region.length()});
     field(window).setTo(0.0F, narrow);
   }
