@@ -335,6 +335,8 @@ Merged merge(const std::vector<fs::path>& runs, const fs::path& output,
     detail::remove_pairs_of_copies(database);
     Merged made = count(database);
     made.gone = std::move(lost.fragments);
+    // Closing would write it too, but say nothing of a full disk, and the file alone is moved.
+    database.exec("PRAGMA wal_checkpoint(TRUNCATE)");
     return made;
   });
   put_in_place(path, output);
