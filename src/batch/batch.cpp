@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -81,8 +82,32 @@ class Work {
 
   /// Pairs of other parameters are done again anyhow.
   std::map<std::string, std::string> copies() const {
-    return run_.parameters() == parameters_ ? run_.copies_among(equal_sized_, shard_name())
-                                            : store::copies(equal_sized_);
+    if (run_.parameters() != parameters_) return store::copies(equal_sized_);
+    return run_.copies_among(with_unreadable(equal_sized_), shard_name());
+  }
+
+  /// A scan that cannot be read now, as on a disk that is not mounted, is what the run knows of it, and its copies stay copies.
+  std::vector<store::Fragment> with_unreadable(std::vector<store::Fragment> files) const {
+    std::map<std::string, std::vector<std::string>> of_hash;
+    std::set<std::string> unreadable;
+    for (const store::Fragment& known : run_.fragments()) {
+      const auto scan = scans_.find(known.name);
+      if (scan == scans_.end() || known.hash == store::kUnreadable) continue;
+      of_hash[known.hash].push_back(known.name);
+      if (!std::ifstream(scan->second)) unreadable.insert(known.name);
+    }
+    std::erase_if(files, [&](const store::Fragment& file) { return unreadable.count(file.name) != 0; });
+    for (const auto& [hash, names] : of_hash) {
+      if (std::ranges::none_of(names, [&](const auto& name) { return unreadable.count(name) != 0; }))
+        continue;
+      for (const std::string& name : names) {
+        if (std::ranges::any_of(files, [&](const auto& file) { return file.name == name; })) continue;
+        store::Fragment& file = files.emplace_back();
+        file.name = name;
+        file.hash = unreadable.count(name) != 0 ? hash : hash_if_readable(scans_.at(name));
+      }
+    }
+    return files;
   }
 
   /// As store::Run::shard() tells it.
@@ -112,7 +137,7 @@ class Work {
   /// Brings the database to the inputs and options of this run.
   void begin() {
     std::vector<store::Fragment> wanted = describe_inputs();
-    const auto forgotten = run_.begin(parameters_, wanted, shard_name(), known_of_other_shards(wanted));
+    const auto forgotten = run_.begin(parameters_, wanted, shard_name());
     if (options_.retry) run_.forget_failures();
     for (const store::Fragment& fragment : run_.fragments()) fragments_[fragment.name] = fragment;
     count_done();
@@ -182,7 +207,8 @@ class Work {
     if (!odd.fragments.empty()) listener_.on_warning(told(odd), progress_);
   }
 
-  /// Name, path and hash of the fragments of this shard, and of their copies.
+  /// Name, path and hash of the fragments of this shard, of their copies, and of those in the folder that the run knows: they were of
+  /// this shard before others came or went, and what was done then stays.
   std::vector<store::Fragment> describe_inputs() const {
     std::set<std::size_t> indices;
     for (const Tile& tile : tiles_) {
@@ -192,6 +218,9 @@ class Work {
     for (const std::size_t k : indices) needed.insert(names_[k]);
     for (const auto& [copy, first] : copies_) {
       if (needed.count(first) != 0) needed.insert(copy);
+    }
+    for (const store::Fragment& known : run_.fragments()) {
+      if (scans_.count(known.name) != 0) needed.insert(known.name);
     }
     std::map<std::string, std::string> hashes;
     for (const store::Fragment& file : equal_sized_) hashes[file.name] = file.hash;
@@ -212,21 +241,6 @@ class Work {
       // One that cannot be read becomes a bad fragment when it is loaded, and a changed one once it can be read.
       if (list[k].hash.empty()) list[k].hash = hash_if_readable(list[k].path);
     });
-    return list;
-  }
-
-  /// Scans of the folder that the database knows and this shard no longer needs, as others came or went.
-  std::vector<store::Fragment> known_of_other_shards(const std::vector<store::Fragment>& wanted) const {
-    std::set<std::string> needed;
-    for (const store::Fragment& fragment : wanted) needed.insert(fragment.name);
-    std::vector<store::Fragment> list;
-    for (store::Fragment& known : run_.fragments()) {
-      const auto scan = scans_.find(known.name);
-      if (scan == scans_.end() || needed.count(known.name) != 0) continue;
-      known.path = scan->second.string();
-      list.push_back(std::move(known));
-    }
-    run_side_by_side(list.size(), [&](std::size_t k) { list[k].hash = hash_if_readable(list[k].path); });
     return list;
   }
 

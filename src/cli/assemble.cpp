@@ -56,8 +56,7 @@ std::string summary(const AssembleInput& input, const assembly::Result& result,
     if (result.placements[k].group >= 0) continue;
     text += fmt::format("  {} not placed: {}\n", input.names[k], reason_of(input, result, k));
   }
-  const bool any_compared = input.remains.missing == 0 || input.remains.missing < input.remains.pairs;
-  if (result.groups == 0 && !result.cancelled && any_compared)
+  if (result.groups == 0 && !result.cancelled && store::is_searched(input.remains))
     text += "  if some should join, see what counts as their breaks: rejoin facets FILE --png facets.png\n";
   for (const auto& [name, reason] : input.bad) text += fmt::format("  {} not placed: {}\n", name, reason);
   return text;

@@ -155,7 +155,7 @@ std::string with_names(const std::string& text, const std::vector<std::string>& 
 std::string reason_of(const AssembleInput& input, const assembly::Result& result, std::size_t fragment) {
   const std::string reason = with_names(result.placements[fragment].reason, input.names);
   std::string missing = store::told(input.remains, input.names[fragment]);
-  if (!store::is_compared(input.remains, input.names[fragment])) return missing;
+  if (!store::is_searched(input.remains, input.names[fragment])) return missing;
   return missing.empty() ? reason : reason + "; " + missing;
 }
 

@@ -370,7 +370,7 @@ void add_reasons(report::RunReport& report, const std::string& all, const store:
     report::ReportFragment& fragment = report.fragments[k];
     if (fragment.pose || !fragment.reason.empty()) continue;
     const std::string missing = store::told(remains, fragment.name);
-    if (all.empty() && !store::is_compared(remains, fragment.name)) {
+    if (all.empty() && !store::is_searched(remains, fragment.name)) {
       fragment.reason = missing;
       continue;
     }

@@ -81,7 +81,7 @@ std::string summary(const std::string& path, const mesh::Mesh& scan, const mesh:
     if (one && table_is_asked) text += " (if it lies on a table, say --table yes)";
   }
   if (split.crumbs.parts > 0) {
-    text += fmt::format("; left out {} ({}, {:.2g} % {}; the largest has {:.2g} % of the largest piece)",
+    text += fmt::format("; left out {} ({}, {:.3g} % {}; the largest has {:.3g} % of the largest piece)",
                         counted(split.crumbs.parts, "crumb"),
                         counted(split.crumbs.elements, cloud ? "point" : "face"), 100.0 * split.crumbs.share,
                         of_it, 100.0 * split.crumbs.largest);

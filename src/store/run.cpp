@@ -328,16 +328,14 @@ std::vector<Candidate> Run::candidates(std::int64_t a, std::int64_t b) const {
 }
 
 Run::Forgotten Run::begin(const Parameters& parameters, const std::vector<Fragment>& fragments,
-                          const std::string& shard, const std::vector<Fragment>& others) {
+                          const std::string& shard) {
   return detail::guarded(access_->path, [&] {
     SQLite::Database& database = *access_->database;
     SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
     require_shard(database, shard, access_->path);
     std::map<std::string, Fragment> wanted;
     for (const Fragment& fragment : fragments) wanted[fragment.name] = fragment;
-    std::map<std::string, Fragment> in_folder = wanted;
-    for (const Fragment& fragment : others) in_folder.emplace(fragment.name, fragment);
-    require_some_known(database, in_folder, access_->path);
+    require_some_known(database, wanted, access_->path);
     Forgotten forgotten;
     if (read_parameters(database) != parameters) {
       forgotten.parameters = has_pairs(database);

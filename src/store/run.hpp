@@ -87,11 +87,10 @@ class Run {
   /// Where poses changed, the pairs go whose fragments both have one, or had.
   /// \param fragments  name, path, hash, pose and facets are used
   /// \param shard      as shard() tells it
-  /// \param others     of the same folder, but of other shards alone, as far as the database knows them; name and hash are used
   /// \throws StoreError also if the database has pairs of another shard, or if the folder has none of its scans, or all with other
   ///         contents or unreadable, for the pairs would be lost
   Forgotten begin(const Parameters& parameters, const std::vector<Fragment>& fragments,
-                  const std::string& shard = "", const std::vector<Fragment>& others = {});
+                  const std::string& shard = "");
 
   /// Removes the pairs that failed, and sets the fragments that are bad to waiting, so that they are tried again.
   void forget_failures();

@@ -29,6 +29,12 @@ inline void make_scans(const std::string& folder) {
   write_file(folder + "/truth.json", "{}");
 }
 
+inline int pairs_in(const std::string& run) {
+  return SQLite::Database(run + "/run.sqlite", SQLite::OPEN_READONLY)
+      .execAndGet("SELECT count(*) FROM pair")
+      .getInt();
+}
+
 /// Everything in a run's database but for seconds and paths, as text.
 inline std::string content(const std::string& run) {
   SQLite::Database database(run + "/run.sqlite", SQLite::OPEN_READONLY);

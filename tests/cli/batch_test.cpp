@@ -19,12 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-int pairs_in(const std::string& run) {
-  return SQLite::Database(run + "/run.sqlite", SQLite::OPEN_READONLY)
-      .execAndGet("SELECT count(*) FROM pair")
-      .getInt();
-}
-
 int pairs_with_poses(const std::string& run) {
   return SQLite::Database(run + "/run.sqlite", SQLite::OPEN_READONLY)
       .execAndGet("SELECT count(*) FROM (SELECT DISTINCT a, b FROM candidate)")
@@ -212,20 +206,6 @@ TEST_F(Batch, ShardsMergedAreTheWhole) {
   EXPECT_NE(none.err.find("shard 9/9 has no pairs"), std::string::npos) << none.err;
   EXPECT_EQ(run({"batch", scans(), "--out", folder_ / "1", "--shard", "2/3"}).exit_code, 1)
       << "holds shard 1/3";
-}
-
-TEST_F(Batch, ShardOfAFolderThatChangedCountsItsOwnPairsAlone) {
-  make_scans(folder_ / "scans");
-  const auto third = match::testing::planted_pair(9, kCells);
-  mesh::save(folder_ / "scans/c1.ply", third.a);
-  mesh::save(folder_ / "scans/c2.ply", third.b);
-  ASSERT_EQ(run({"batch", folder_ / "scans", "--out", run_, "--shard", "1/2"}).exit_code, 0);
-  const int before = pairs_in(run_);
-  fs::remove(folder_ / "scans/c2.ply");
-  const Finished finished = run({"batch", folder_ / "scans", "--out", run_, "--shard", "1/2"});
-  ASSERT_EQ(finished.exit_code, 0) << finished.err;
-  EXPECT_NE(finished.out.find(", 3 of 3 pairs done, 0 of them now"), std::string::npos) << finished.out;
-  EXPECT_GT(pairs_in(run_), 3) << "pairs of " << before << " that the shard had of the larger folder";
 }
 
 TEST_F(Batch, ShardRefusesAFolderOfOtherScans) {

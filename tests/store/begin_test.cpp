@@ -129,18 +129,14 @@ TEST_F(RunTest, OtherContentsUnderTheSameNamesAreRefusedSoThatNoPairIsLost) {
   EXPECT_NO_THROW(run.begin(kParameters, others)) << "there is nothing to lose";
 }
 
-TEST_F(RunTest, AShardIsKeptFromOtherScansAndNotFromThoseOfItsFolder) {
+TEST_F(RunTest, AShardIsKeptFromOtherScans) {
   const std::vector<Fragment> elsewhere = {fragment("x.ply", "77"), fragment("y.ply", "88")};
   store::Run run = store::Run::write(folder_);
   run.begin(kParameters, three_, "1/2");
   run.save(pair_of(run.fragments(), 0, 1), {candidate_});
   EXPECT_THROW(run.begin(kParameters, elsewhere, "1/2"), StoreError);
-  EXPECT_THROW(run.begin(kParameters, elsewhere, "1/2", {fragment("a.ply", "99")}), StoreError)
-      << "another content of the same name";
   EXPECT_THROW(run.begin(kParameters, {fragment("a.ply", "44"), fragment("b.ply", "55")}, "1/2"), StoreError);
   EXPECT_EQ(run.done().size(), 1U);
-  EXPECT_NO_THROW(run.begin(kParameters, elsewhere, "1/2", {three_[1]})) << "scans came before a.ply";
-  EXPECT_TRUE(run.done().empty());
 }
 
 TEST_F(RunTest, RefusalNamesAScanOfTheSameName) {

@@ -269,6 +269,28 @@ TEST_F(RunTest, PairsThatWereNotSearchedInFullAreTold) {
             "(rejoin batch --thorough does)");
 }
 
+TEST_F(RunTest, PairsThatTheLayoutKeptApartAreTold) {
+  make_run();
+  store::Run run = store::Run::write(folder_);
+  const auto lay_apart = [&run](std::size_t a, std::size_t b) {
+    Pair pair = pair_of(run.fragments(), a, b);
+    pair.stage = Stage::Apart;
+    run.save(pair, {});
+  };
+  const auto name = [&run](std::size_t k) { return run.fragments()[k].name; };
+  lay_apart(1, 2);
+  EXPECT_EQ(told(remains(run), name(1)),
+            "1 of its 2 pairs was not searched, as the layout has them too far apart to touch");
+  EXPECT_TRUE(is_searched(remains(run), name(1)));
+  EXPECT_FALSE(is_searched(remains(run), name(2))) << "one pair is missing, the other one was laid apart";
+  lay_apart(0, 2);
+  EXPECT_EQ(told(remains(run), name(2)),
+            "none of its 2 pairs was searched, as the layout has them too far apart to touch");
+  EXPECT_TRUE(is_searched(remains(run)));
+  lay_apart(0, 1);
+  EXPECT_FALSE(is_searched(remains(run)));
+}
+
 TEST_F(RunTest, CandidatesOfAnEarlierSchemaAreReadAsHeld) {
   make_run();
   SQLite::Database(folder_ / kFileName, SQLite::OPEN_READWRITE)
