@@ -159,6 +159,10 @@ Joint Joint::worn() const {
   return Joint(sides_->worn());
 }
 
+Joint Joint::sparse() const {
+  return Joint(sides_->sparse());
+}
+
 Joint::~Joint() = default;
 
 double Joint::tolerance() const {

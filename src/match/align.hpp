@@ -45,6 +45,10 @@ class Joint {
   /// The same, to be judged by those of worn ones.
   Joint worn() const;
 
+  /// The same, for poses that are looked at again: of both pieces look no more samples a patch than where patches are as small as samples
+  /// allow.  Worn breaks have larger ones.
+  Joint sparse() const;
+
   ~Joint();
 
   /// Robust point-to-plane alignment of the facing broken surfaces; for thin pieces the walls across the seam

@@ -63,7 +63,7 @@ class Look {
     Begun begun;
     begun.evidence.tolerance = lengths_.tolerance;
     begun.evidence.explained = lengths_.explained;
-    Contact contact = contact_of(b_.broken_of(facet_b));
+    Contact contact = contact_of(facet_b);
     look_at_contact(contact, begun.evidence);
     begun.touching = std::move(contact.touching);
     return begun;
@@ -82,7 +82,7 @@ class Look {
 
   /// Joint::scales(), one way.
   Scales scales() const {
-    const Contact contact = contact_of(b_.broken_of(-1));
+    const Contact contact = contact_of(-1);
     if (!contact.has_shape()) return {};
     const std::vector<double> heights =
         heights_above_quadric(contact.core, glm::normalize(contact.normal), kQuadricRounds);
@@ -129,12 +129,14 @@ class Look {
     bool has_shape() const { return core.size() >= 12 && glm::length(normal) > 0; }
   };
 
-  Contact contact_of(const std::vector<std::uint32_t>& from) const {
+  /// \param facet  of B; -1: of all
+  Contact contact_of(int facet) const {
     Contact c;
     const double over = kOver * lengths_.tolerance;
     const auto farthest = static_cast<float>(std::hypot(lengths_.spacing, kNear * over));
-    const detail::Chosen chosen =
-        detail::chosen_in(a_.broken_box, farthest, b_.broken.points, from, move_, most_samples_);
+    const detail::Chosen chosen = detail::chosen_in(a_.broken_box, farthest, b_.broken.points,
+                                                    b_.broken_of(facet), move_, most_samples_);
+    const double each = chosen.each * b_.each_of(facet);
     for (const std::uint32_t i : chosen.list) {
       const glm::vec3 p = move_(b_.broken.points[i]);
       const auto hit = a_.broken_index->nearest_within(p, farthest);
@@ -150,7 +152,7 @@ class Look {
       if (std::abs(gap) <= kNear * lengths_.tolerance) ++c.near_touching;
       if (std::abs(gap) > over) continue;
       c.gaps.push_back(gap);
-      c.area += chosen.each * static_cast<double>(b_.broken.areas[i]);
+      c.area += each * static_cast<double>(b_.broken.areas[i]);
       c.normal += glm::dvec3(n);
       if (!b_.broken.edge[i] && !a_.broken.edge[hit->first]) {
         c.core.emplace_back(p);
@@ -203,6 +205,7 @@ class Look {
     const int most = most_samples_ > 0 ? std::min(most_samples_, kBodySamples) : kBodySamples;
     const detail::Chosen chosen =
         detail::chosen_in(a_.body_box, 0.0, b_.body.points, b_.all_body, move_, most);
+    const double each = chosen.each * static_cast<double>(b_.step);
     double inside = 0.0;
     double depth = 0.0;
     for (const std::uint32_t i : chosen.list) {
@@ -212,7 +215,7 @@ class Look {
       const glm::vec3 offset = p - a_.body.points[hit->first];
       const auto gap = static_cast<double>(glm::dot(offset, a_.body.normals[hit->first]));
       if (gap > -3.0 * lengths_.tolerance || -gap < 0.7 * static_cast<double>(hit->second)) continue;
-      const double area = chosen.each * static_cast<double>(b_.body.areas[i]);
+      const double area = each * static_cast<double>(b_.body.areas[i]);
       inside += area;
       depth -= gap * area;
     }
@@ -257,7 +260,7 @@ class Look {
     const mesh::PointIndex contact(touching);
     const Finder finder = sides_.body_finder(false);
     double found = 0.0;
-    for (std::size_t i = 0; i < b_.body.points.size(); ++i) {
+    for (const std::uint32_t i : b_.all_body) {
       const glm::vec3 p = move_(b_.body.points[i]);
       const auto border = contact.nearest_within(p, static_cast<float>(far));
       if (!border || border->second < kBorderNear * lengths_.patch) continue;
@@ -266,7 +269,7 @@ class Look {
                   {a_.body, kBorderAlike, kBorderStep * lengths_.patch}))
         found += static_cast<double>(b_.body.areas[i]);
     }
-    e.continuation = found / e.patch_area;
+    e.continuation = found * static_cast<double>(b_.step) / e.patch_area;
   }
 
   /// What surfaces of one skin have in common.

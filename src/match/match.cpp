@@ -188,7 +188,11 @@ void keep_near(std::vector<Hypothesis>& hypotheses, const Near& near) {
 void align(std::vector<Hypothesis>& hypotheses, const Joint& joint, const Fragment& a, const Fragment& b,
            const std::optional<Near>& near, std::span<const Pass> rounds, const Context& context) {
   for (const Pass& pass : rounds) {
-    refine(hypotheses, joint, pass, context);
+    if (pass.sparse) {
+      refine(hypotheses, joint.sparse(), pass, context);
+    } else {
+      refine(hypotheses, joint, pass, context);
+    }
     if (near) keep_near(hypotheses, *near);
     hypotheses = shortlist(hypotheses, a, b, pass.kept);
     if (context.cancelled()) break;

@@ -115,7 +115,7 @@ std::vector<Pass> passes(double tolerance, int most) {
   };
   return {{rough(10.0, 4.0, 8, 120), true, 300, true, 16 * kept},
           {rough(8.0, 3.0, 12, 300), true, 1500, false, 5 * kept},
-          {{6.0 * t, 2.0 * t, 20, 0}, false, 0, false, 3 * kept},
+          {{6.0 * t, 2.0 * t, 20, 0}, false, 0, false, 3 * kept, true},
           {{3.0 * t, 1.0 * t, 15, 0, true}, false, 0, false, 3 * kept}};
 }
 

@@ -29,6 +29,7 @@ struct Pass {
   int evidence_samples = 0;    ///< of B that are looked at; 0: all
   bool facet_weighed = false;  ///< of that facet alone
   std::size_t kept = 0;        ///< distinct poses that go on
+  bool sparse = false;         ///< by Joint::sparse()
 };
 
 /// The rounds of a match, first to last; each costs more a hypothesis and keeps fewer.

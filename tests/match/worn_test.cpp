@@ -101,6 +101,23 @@ TEST(Worn, FreshBreaksOfAFineScanStayJudgedByTheirOwnDistances) {
   EXPECT_LT(worst_offset(found_pose(pair, result), pair.truth, pair.b.surface), 0.05);
 }
 
+TEST(Worn, SparseLooksSayWhatAllSay) {
+  const Pair pair = pair_with(lost);
+  const Joint joint = Joint(pair.a, pair.b).worn();
+  const Joint sparse = joint.sparse();
+  const Evidence all = joint.agreed_evidence(pair.truth);
+  const Evidence some = sparse.agreed_evidence(pair.truth);
+  EXPECT_LT(2 * some.core_samples, all.core_samples) << "else nothing is saved";
+  EXPECT_NEAR(some.contact_area / all.contact_area, 1.0, 0.3) << "about a hundred of the samples touch";
+  EXPECT_NEAR(some.shared_area / all.shared_area, 1.0, 0.1);
+  EXPECT_NEAR(strength(some) / strength(all), 1.0, 0.3);
+  const double tolerance = joint.tolerance();
+  const Rigid off{axis_rotation(glm::dvec3(0, 0, 1), 0.01), glm::dvec3(0.5 * tolerance)};
+  const Rigid aligned =
+      sparse.align(off * pair.truth, {.reach_start = 3.0 * tolerance, .reach_end = tolerance});
+  EXPECT_LT(worst_offset(aligned, pair.truth, pair.b.surface), 2.0 * tolerance);
+}
+
 // Parts of one form that broke alike: one side bends away from the other by more than the scans stray, by less than breaks wear.
 TEST(Worn, AlikeBreaksThatAFineScanTellsApartAreNoJoin) {
   const Pair pair = pair_with(

@@ -12,6 +12,7 @@ constexpr double kWallClear = 0.25;  // wall thicknesses next to the seam that a
 constexpr double kOpen = 0.05;  // of the surface has nothing behind it, of a scan whose walls may be missing
 constexpr double kCannotTell = 0.2;  // tolerances: gap spread of joints as good as any
 constexpr double kExplained = 5.0;   // deviations of both surfaces that sides of a break may lie apart by
+constexpr double kPatch = 2.5;       // spacings: side of a patch of fresh surface, at least
 constexpr double kWornPatch = 10.0;  // tolerances: side of a patch of worn surface, as of sherds
 constexpr double kWornNoise = 1.0 / 6.0;  // tolerances, as of coarse scans
 constexpr double kWornDepth =
@@ -29,7 +30,7 @@ Side side_of(const mesh::Segmentation& s, double edge_radius) {
   side.body.areas = s.samples.areas;
   side.all_body.resize(s.samples.size());
   std::iota(side.all_body.begin(), side.all_body.end(), 0U);
-  side.body_index = std::make_unique<mesh::PointIndex>(side.body.points);
+  side.body_index = std::make_shared<const mesh::PointIndex>(side.body.points);
   const mesh::Neighbours neighbours(side.body.points, static_cast<float>(edge_radius));
   side.broken_of_facet.resize(s.facets.size() + s.creased.facets.size());
   for (std::size_t i = 0; i < s.samples.size(); ++i) {
@@ -50,7 +51,7 @@ Side side_of(const mesh::Segmentation& s, double edge_radius) {
     side.broken.edge.push_back(neighbours.any(
         s.samples.points[i], [&](std::uint32_t k) { return s.facet_of_sample[k] != s.facet_of_sample[i]; }));
   }
-  side.broken_index = std::make_unique<mesh::PointIndex>(side.broken.points);
+  side.broken_index = std::make_shared<const mesh::PointIndex>(side.broken.points);
   if (s.wall_thickness > 0) {
     for (std::size_t i = 0; i < s.samples.size(); ++i) {
       if (s.surface[i] != mesh::Surface::Original) continue;
@@ -63,7 +64,7 @@ Side side_of(const mesh::Segmentation& s, double edge_radius) {
       side.walls.areas.push_back(s.samples.areas[i]);
     }
   }
-  side.wall_index = std::make_unique<mesh::PointIndex>(side.walls.points);
+  side.wall_index = std::make_shared<const mesh::PointIndex>(side.walls.points);
   side.broken_box = box_of(side.broken.points);
   side.wall_box = box_of(side.walls.points);
   side.body_box = box_of(side.body.points);
@@ -80,7 +81,7 @@ JointLengths lengths_of(const Fragment& a, const Fragment& b) {
   l.noise = 0.05 * scan;
   l.explained = std::max(kCannotTell * l.tolerance, kExplained * std::hypot(a.waviness, b.waviness));
   l.deepest = l.thickness > 0 ? 0.6 * l.thickness : 8.0 * l.spacing;
-  l.patch = std::max({0.5 * joint_ruler(a, b), 2.5 * l.spacing, 2.5 * scan});
+  l.patch = std::max({0.5 * joint_ruler(a, b), kPatch * l.spacing, kPatch * scan});
   return l;
 }
 
@@ -91,6 +92,17 @@ std::shared_ptr<const Side> side_of(const Fragment& fragment, const JointLengths
     return std::make_shared<const Side>(side_of(fragment.facets, edge));
   return std::make_shared<const Side>(
       side_of(mesh::denser(fragment.facets, open_surface(fragment), lengths.spacing), edge));
+}
+
+/// \pre no sample of the side was left out before
+std::shared_ptr<const Side> with_fewer_looks(const std::shared_ptr<const Side>& side, std::size_t step) {
+  if (step < 2) return side;
+  Side fewer = *side;
+  fewer.step = step;
+  const auto left_out = [&](std::uint32_t i) { return i % step != 0; };
+  std::erase_if(fewer.all_body, left_out);
+  std::erase_if(fewer.all_broken, left_out);
+  return std::make_shared<const Side>(std::move(fewer));
 }
 
 bool is_in(const mesh::Box& box, const glm::vec3& p) {
@@ -138,6 +150,13 @@ std::unique_ptr<const JointSides> JointSides::worn() const {
   lengths.noise = std::max(lengths_.noise, kWornNoise * lengths.tolerance);
   lengths.deepest = std::max(lengths_.deepest, kWornDepth * lengths.tolerance);
   return std::unique_ptr<const JointSides>(new JointSides(a_, b_, lengths));
+}
+
+std::unique_ptr<const JointSides> JointSides::sparse() const {
+  const double larger = lengths_.patch / (kPatch * lengths_.spacing);
+  const auto step = static_cast<std::size_t>(larger * larger);
+  return std::unique_ptr<const JointSides>(
+      new JointSides(with_fewer_looks(a_, step), with_fewer_looks(b_, step), lengths_));
 }
 
 std::unique_ptr<const JointSides> JointSides::exchanged() const {

@@ -57,26 +57,30 @@ class Finder {
   const mesh::NearTable* table_;
 };
 
-/// One fragment.
+/// One fragment; copies share the indices.
 struct Side {
   bool open = false;  ///< the scan lacks surface: walls with nothing behind them count as broken
   Cloud broken;
   Cloud walls;  ///< thin pieces: original surface near the fracture
   Cloud body;   ///< every sample
-  std::unique_ptr<mesh::PointIndex> broken_index;
-  std::unique_ptr<mesh::PointIndex> wall_index;
-  std::unique_ptr<mesh::PointIndex> body_index;
-  mesh::Box broken_box;                                     ///< of `broken`
-  mesh::Box wall_box;                                       ///< of `walls`
-  mesh::Box body_box;                                       ///< of `body`
-  std::vector<std::uint32_t> all_body;                      ///< 0, 1, ... into `body`
-  std::vector<std::uint32_t> all_walls;                     ///< 0, 1, ... into `walls`
-  std::vector<std::uint32_t> all_broken;                    ///< 0, 1, ... into `broken`
-  std::vector<std::vector<std::uint32_t>> broken_of_facet;  ///< into `broken`; by match/cuts.hpp's numbers
+  std::shared_ptr<const mesh::PointIndex> broken_index;
+  std::shared_ptr<const mesh::PointIndex> wall_index;
+  std::shared_ptr<const mesh::PointIndex> body_index;
+  mesh::Box broken_box;  ///< of `broken`
+  mesh::Box wall_box;    ///< of `walls`
+  mesh::Box body_box;    ///< of `body`
+  std::size_t step = 1;  ///< samples for one in `all_body` and `all_broken`: these look at the other fragment
+  std::vector<std::uint32_t> all_body;    ///< 0, step, ... into `body`
+  std::vector<std::uint32_t> all_walls;   ///< 0, 1, ... into `walls`
+  std::vector<std::uint32_t> all_broken;  ///< 0, step, ... into `broken`
+  std::vector<std::vector<std::uint32_t>>
+      broken_of_facet;  ///< all into `broken`; by match/cuts.hpp's numbers
   /// The broken samples of one facet; of all for -1.
   const std::vector<std::uint32_t>& broken_of(int facet) const {
     return facet < 0 ? all_broken : broken_of_facet[static_cast<std::size_t>(facet)];
   }
+  /// Samples that each of these stands for.
+  double each_of(int facet) const { return facet < 0 ? static_cast<double>(step) : 1.0; }
 };
 
 /// What both fragments' scans allow, mesh units.
@@ -100,6 +104,9 @@ class JointSides {
 
   /// To be judged by the distances of worn breaks; shares the samples.
   std::unique_ptr<const JointSides> worn() const;
+
+  /// Joint::sparse(); shares what is looked for.
+  std::unique_ptr<const JointSides> sparse() const;
 
   /// A and B exchanged; shares the samples.
   std::unique_ptr<const JointSides> exchanged() const;
