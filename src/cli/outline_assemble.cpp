@@ -59,6 +59,20 @@ std::string contested(const std::vector<outline::Piece>& pieces, const outline::
   return text;
 }
 
+/// What is said of an object all of whose pieces others have the outlines of.
+std::string repeated(const outline::Assembly& assembly, std::size_t group, std::size_t size) {
+  std::size_t again = 0;
+  bool turned = true;
+  for (const outline::AssemblyRepeat& repeat : assembly.repeats) {
+    if (assembly.placements[repeat.piece].group != group) continue;
+    ++again;
+    turned = turned && repeat.turned_over;
+  }
+  if (again < size) return "";
+  return turned ? "; all have the outlines of others turned over: pictures of their other sides"
+                : "; all have the outlines of others: other scans of them, or cut to the same shapes";
+}
+
 /// Why a piece has no place.
 std::string without_place(const std::vector<outline::Piece>& pieces, const outline::Assembly& assembly,
                           std::size_t piece) {
@@ -68,14 +82,15 @@ std::string without_place(const std::vector<outline::Piece>& pieces, const outli
     return fmt::format(
         "  fits nowhere: {} (has the outline of {}{}, or cut to one shape)\n", name, pieces[repeat->of].name,
         repeat->turned_over ? " turned over: a picture of its other side" : ": another scan of it");
+  const auto refused = std::ranges::find(assembly.refused, piece, &outline::AssemblyRival::piece);
+  const double best = refused != assembly.refused.end() ? refused->score : outline::kSureScore;
   for (const outline::AssemblyJoin& join : assembly.joins) {
     const auto rival = std::ranges::find(join.rivals, piece, &outline::AssemblyRival::piece);
-    if (rival != join.rivals.end() && rival->score >= outline::kSureScore)
+    if (rival != join.rivals.end() && rival->score >= best)
       return fmt::format("  its place is taken: {} (fits {}, {:.2f}, but {} lies there)\n", name,
                          pieces[rival->at].name, rival->score,
                          pieces[rival->at == join.a ? join.b : join.a].name);
   }
-  const auto refused = std::ranges::find(assembly.refused, piece, &outline::AssemblyRival::piece);
   if (refused != assembly.refused.end())
     return fmt::format(
         "  has no place: {} (fits {}, {:.2f}, but others are in its way there, or nothing else bears it "
@@ -109,7 +124,7 @@ std::string summary(const std::vector<outline::Piece>& pieces, const outline::As
       text +=
           fmt::format(", of which {} parts hold together only by joins that are not sure (scores below {})",
                       parts, outline::kSureScore);
-    text += "\n";
+    text += repeated(assembly, group, sizes[group]) + "\n";
   }
   text += contested(pieces, assembly);
   for (const std::size_t piece : assembly.unplaced) text += without_place(pieces, assembly, piece);

@@ -13,6 +13,7 @@
 
 #include "core/parallel.hpp"
 #include "outline/congruence.hpp"
+#include "outline/detail/copies.hpp"
 #include "outline/detail/links.hpp"
 #include "outline/detail/rivals.hpp"
 #include "outline/layout.hpp"
@@ -368,29 +369,6 @@ class Description {
   double length_ = 0.0;
 };
 
-/// \param unplaced  ascending   \param are_congruent  (a, b), a < b
-std::vector<AssemblyRepeat> repeats_of(const std::vector<Piece>& pieces,
-                                       const std::vector<std::size_t>& unplaced,
-                                       const std::function<bool(std::size_t, std::size_t)>& are_congruent) {
-  std::vector<AssemblyRepeat> repeats;
-  for (const std::size_t piece : unplaced) {
-    const auto first_where = [&](const auto& alike) -> std::optional<std::size_t> {
-      for (std::size_t other = 0; other < pieces.size(); ++other) {
-        if (other >= piece && std::ranges::binary_search(unplaced, other)) continue;
-        if (alike(other)) return other;
-      }
-      return std::nullopt;
-    };
-    const auto again =
-        first_where([&](std::size_t o) { return are_congruent(std::min(piece, o), std::max(piece, o)); });
-    const Outline back = turned_over(pieces[piece].outline);
-    const auto of =
-        again ? again : first_where([&](std::size_t o) { return congruent(back, pieces[o].outline); });
-    if (of) repeats.push_back({piece, *of, !again});
-  }
-  return repeats;
-}
-
 Assembly assemble_linked(const std::vector<Piece>& pieces, const LinkedPieces& linked,
                          const AssemblyOptions& options, const Context& context) {
   const Layout layout = Assembler(linked, options).run(context);
@@ -406,10 +384,13 @@ Assembly assemble_linked(const std::vector<Piece>& pieces, const LinkedPieces& l
 Assembly assemble(const std::vector<Piece>& pieces, const std::vector<PairResult>& pairs,
                   const AssemblyOptions& options, const Context& context) {
   if (pieces.empty()) return {};
-  Assembly assembly = assemble_linked(pieces, detail::link_pieces(pieces, pairs, options), options, context);
-  assembly.repeats = repeats_of(pieces, assembly.unplaced, [&](std::size_t a, std::size_t b) {
-    return congruent(pieces[a].outline, pieces[b].outline);
-  });
+  detail::NamesOfPairs alike;
+  for (std::size_t a = 0; a < pieces.size(); ++a)
+    for (std::size_t b = a + 1; b < pieces.size(); ++b)
+      if (congruent(pieces[a].outline, pieces[b].outline)) alike.insert({a, b});
+  const LinkedPieces linked = detail::link_pieces(pieces, pairs, options, alike);
+  Assembly assembly = assemble_linked(pieces, linked, options, context);
+  assembly.repeats = detail::repeats_of(pieces, assembly, alike);
   return assembly;
 }
 
@@ -464,7 +445,10 @@ Assembly assemble(const std::vector<Piece>& pieces, const Matcher& matcher, cons
   // A wish to stop that ended the search must not throw away what it found; to join that takes moments.
   const Context joining([&](std::string_view stage, double fraction) { context.report(stage, fraction); });
   const bool search_ended = context.cancelled();
-  LinkedPieces linked = detail::link_pieces(pieces, pairs, options);
+  detail::NamesOfPairs alike;
+  for (const PairOfPieces& pair : names)
+    if (pair.congruent) alike.insert({pair.a, pair.b});
+  LinkedPieces linked = detail::link_pieces(pieces, pairs, options, alike);
   Assembly assembly = assemble_linked(pieces, linked, options, search_ended ? joining : context);
   if (options.second != nullptr && !assembly.unplaced.empty() && !context.cancelled()) {
     std::vector<PairOfPieces> left;
@@ -482,9 +466,7 @@ Assembly assemble(const std::vector<Piece>& pieces, const Matcher& matcher, cons
     }
   }
   assembly.cancelled = context.cancelled();
-  assembly.repeats = repeats_of(pieces, assembly.unplaced, [&](std::size_t a, std::size_t b) {
-    return names[a * (2 * pieces.size() - a - 1) / 2 + b - a - 1].congruent;
-  });
+  assembly.repeats = detail::repeats_of(pieces, assembly, alike);
   std::set<std::size_t> open;
   for (const PairOfPieces& pair : names)
     if (!pair.matched) open.insert({pair.a, pair.b});

@@ -50,10 +50,11 @@ struct AssemblyJoin {
   std::vector<AssemblyRival> rivals;  ///< best first
 };
 
-/// A piece without a place whose outline another piece has too, see congruent(): mostly a second scan of it, or one of its other side.
+/// A piece without a place, or in another object than the first, whose outline a piece has too that is placed before it, see congruent():
+/// mostly a second scan of it, or one of its other side.
 struct AssemblyRepeat {
   std::size_t piece = 0;
-  std::size_t of = 0;  ///< one that is placed, or that comes before it
+  std::size_t of = 0;  ///< one in an earlier object or, of two without a place, that comes before it
   bool turned_over = false;
 };
 

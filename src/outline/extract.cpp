@@ -338,6 +338,21 @@ void drop_threads(cv::Mat& field, std::vector<std::string>& notes) {
       one ? "is" : "are", threads[0].length, threads[0].place.x, threads[0].place.y, one ? "it" : "them"));
 }
 
+/// Takes torn paper's white core off the pieces, and tells it.
+/// \return whether there is any
+bool drop_core(const cv::Mat& image, cv::Mat& field, std::vector<std::string>& notes) {
+  const std::vector<cv::Rect> pieces = detail::take_off_core(image, field);
+  if (pieces.empty()) return false;
+  const cv::Rect& first = pieces[0];
+  notes.push_back(
+      fmt::format("a white rim along the border of {} ({} x {} pixels at x {}, y {}{}) is left out, as the "
+                  "core of printed paper that shows "
+                  "along tears: --keep-core keeps it",
+                  counted(pieces.size(), "piece"), first.width, first.height, first.x, first.y,
+                  pieces.size() > 1 ? fmt::format(", and {} more", pieces.size() - 1) : ""));
+  return true;
+}
+
 /// Leaves out what is dust beside the largest piece, and tells if it may be none.
 /// \param percent  of the largest's area
 void drop_dust(Loops& loops, double percent, std::vector<std::string>& notes) {
@@ -365,11 +380,7 @@ Extraction extract(const std::string& path, const ExtractOptions& options) {
   Extraction result;
   cv::Mat image = picture::load_image(path, options.max_pixels, &result.notes);
   detail::Coverage coverage = detail::coverage(image, path);
-  const bool core = !options.keep_core && detail::take_off_core(image, coverage.field);
-  if (core) {
-    result.notes.emplace_back(
-        "the paper's white core shows along its tears and is left out: --keep-core keeps it");
-  }
+  const bool core = !options.keep_core && drop_core(image, coverage.field, result.notes);
   if (!options.keep_threads) drop_threads(coverage.field, result.notes);
   std::vector<Polygon> all = detail::contours(coverage.field, 0.5F, kLeastPoints);
   const bool hard = detail::raster_of(all) > kStaircase;

@@ -292,9 +292,18 @@ struct Listing {
 };
 
 /// \throws IoError, InputError as read_folder()
+/// What a folder has instead of pieces.
+std::string told_skipped(std::vector<std::string> names) {
+  if (names.empty()) return "";
+  const std::string& first = *std::ranges::min_element(names);
+  if (names.size() == 1) return ", but " + first;
+  return fmt::format(", but {} and {}", first, counted(names.size() - 1, "other file"));
+}
+
 Listing list_folder(const std::string& folder) {
   std::error_code problem;
   Listing list;
+  std::vector<std::string> skipped;
   for (auto entry = fs::directory_iterator(folder, problem); !problem && entry != fs::directory_iterator();
        entry.increment(problem)) {
     std::error_code ignored;
@@ -306,7 +315,10 @@ Listing list_folder(const std::string& folder) {
       continue;
     }
     if (is_other_picture(entry->path())) list.others.push_back(entry->path());
-    if (!has_piece_name(entry->path().string())) continue;
+    if (!has_piece_name(entry->path().string())) {
+      skipped.push_back(name);
+      continue;
+    }
     if (!is_beside_the_pieces(entry->path().filename().string(), list.results))
       list.files.push_back(entry->path());
   }
@@ -330,7 +342,8 @@ Listing list_folder(const std::string& folder) {
       throw InputError(folder,
                        what + " of a kind that is read, but " + list.others.front().filename().string(),
                        "save such pictures as png, jpg or tif");
-    throw InputError(folder, what, "put png, jpg, tif, csv, svg or geojson files there");
+    throw InputError(folder, what + told_skipped(std::move(skipped)),
+                     "put png, jpg, tif, csv, svg or geojson files there");
   }
   std::sort(list.files.begin(), list.files.end());
   // Raw pictures that lie beside what was made of them.
@@ -344,7 +357,8 @@ Listing list_folder(const std::string& folder) {
 
 PieceSet read_folder(const std::string& folder, const ExtractOptions& options, const Context& context) {
   std::error_code ignored;
-  const bool is_file = has_piece_name(folder) && fs::is_regular_file(folder, ignored);
+  const bool is_file = fs::is_regular_file(folder, ignored);
+  if (is_file && kind_of(folder) == Kind::Unknown) read_pieces(folder, options);  // tells why not
   const auto [files, others, folders, results] =
       is_file ? Listing{{folder}, {}, {}, {}} : list_folder(folder);
   PieceSet all;

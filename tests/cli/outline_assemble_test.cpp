@@ -305,6 +305,29 @@ TEST(OutlineAssemble, AFolderWithoutPiecesIsRefused) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "empty");
   expect_refusal({"outline", "assemble", folder / "empty"}, "holds no picture");
+  write_file(folder / "empty/b.dxf", "0");
+  expect_refusal({"outline", "assemble", folder / "empty"}, "no outline, but b.dxf; put png");
+  write_file(folder / "empty/a.json", "{}");
+  expect_refusal({"outline", "assemble", folder / "empty"},
+                 "no outline, but a.json and 1 other file; put png");
+}
+
+TEST(OutlineAssemble, AFileOfAnotherKindIsRefusedAsThat) {
+  const TemporaryFolder folder;
+  write_file(folder / "drawing.dxf", "0");
+  expect_refusal({"outline", "assemble", folder / "drawing.dxf"}, "is neither a picture nor an outline");
+  write_file(folder / "pages.pdf", "%PDF");
+  expect_refusal({"outline", "assemble", folder / "pages.pdf"}, "is a picture of a kind that is not read");
+}
+
+TEST(OutlineAssemble, GeoJsonMayEndInJsonWhereItIsGivenByItself) {
+  const TemporaryFolder folder;
+  write_file(folder / "two.json",
+             R"({"type": "MultiPolygon", "coordinates": [[[[0, 0], [400, 0], [400, 300], [50, 350], [0, 0]]],
+                 [[[500, 0], [900, 0], [900, 200], [550, 250], [500, 0]]]]})");
+  const Finished done = run({"outline", "assemble", folder / "two.json"});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_NE(done.out.find("of 2 pieces placed"), std::string::npos) << done.out;
 }
 
 }  // namespace

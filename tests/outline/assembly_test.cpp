@@ -208,6 +208,23 @@ TEST(Assembly, StraightStripsOfOneSlopeAreNotPutTogether) {
   }
 }
 
+TEST(Assembly, AnObjectOfSecondScansIsTold) {
+  planted::Board board = planted::broken_board(3, 3, 0.05, 12);
+  Random random(9);
+  for (const std::size_t k : {0U, 1U}) {
+    const Planar turned{1.0, {900.0, 40.0 + 300.0 * k}, false};
+    board.pieces.push_back(planted::moved(board.pieces[k], turned, 0.05, random));
+  }
+  const Assembly assembly = assembled(board.pieces);
+  ASSERT_EQ(assembly.repeats.size(), 2U) << "placed by each other or not";
+  std::set<std::set<std::size_t>> pairs;
+  for (const AssemblyRepeat& repeat : assembly.repeats) {
+    EXPECT_FALSE(repeat.turned_over);
+    pairs.insert({repeat.piece, repeat.of});
+  }
+  EXPECT_EQ(pairs, (std::set<std::set<std::size_t>>{{0, 9}, {1, 10}}));
+}
+
 TEST(Assembly, ASecondScanOfAPieceIsNotLaidOnTheFirst) {
   planted::Board board = planted::broken_board(3, 3, 0.05, 12);
   const std::vector<AssemblyJoin> once = assembled(board.pieces).joins;
@@ -219,6 +236,9 @@ TEST(Assembly, ASecondScanOfAPieceIsNotLaidOnTheFirst) {
   ASSERT_EQ(assembly.repeats.size(), 1U);
   EXPECT_EQ(assembly.repeats[0].piece, assembly.unplaced[0]);
   EXPECT_EQ(assembly.repeats[0].of, 13U - assembly.unplaced[0]);
+  for (const AssemblyJoin& join : assembly.joins)
+    for (const AssemblyRival& rival : join.rivals)
+      EXPECT_NE(rival.piece, assembly.unplaced[0]) << "it asks for its own place";
   ASSERT_EQ(assembly.joins.size(), once.size());
   const auto total = [](const std::vector<AssemblyJoin>& joins) {
     double sum = 0.0;

@@ -195,6 +195,20 @@ TEST_F(Read, CsvWithSemicolonsMayHaveDecimalCommas) {
   EXPECT_DOUBLE_EQ(only_area(read_pieces(write("c.csv", "0,0\n1,0\n1,1\n0,1\n"))), 1.0);
 }
 
+TEST_F(Read, CsvBetweenSemicolonsMayHaveCommasInQuotedWords) {
+  EXPECT_DOUBLE_EQ(only_area(read_pieces(write("a.csv",
+                                               "note;x;y\n\"corner, 1\";0,5;0\n\"corner, 2\";10,5;0\n"
+                                               "\"corner, 3\";10,5;8\n\"corner, 4\";0,5;8\n"))),
+                   80.0);
+}
+
+TEST_F(Read, CsvOfRowsAndColumnsIsThatOfAPicture) {
+  const PieceSet set = read_pieces(write("a.csv", "row,col\n0,0\n0,4\n1,4\n3,0\n"));
+  const auto& points = set.pieces.at(0).outline.points;
+  EXPECT_FALSE(set.pieces[0].y_up);
+  EXPECT_NE(std::ranges::find(points, glm::dvec2(4, 1)), points.end()) << "columns go right, rows down";
+}
+
 TEST_F(Read, CsvWithBlanksOrTabsMayHaveDecimalCommas) {
   EXPECT_DOUBLE_EQ(
       only_area(read_pieces(write("a.txt", "0,5\t0,5\r\n10,5\t0,5\r\n10,5\t10,5\r\n0,5\t10,5\r\n"))), 100.0);
@@ -231,6 +245,11 @@ TEST_F(Read, CsvFieldsMayStandInQuotesWithDecimalCommas) {
                        write("c.csv", "\"0,5\";\"0\"\n\"10,5\";\"0\"\n\"10,5\";\"8\"\n\"0,5\";\"8\"\n"))),
                    80.0);
   expect_refusal("d.csv", "0,0\n\"1,234.5\",1\n", "line 2 is no point");
+}
+
+TEST_F(Read, WktInACsvIsNamed) {
+  expect_refusal("a.csv", "id;wkt\n1;\"POLYGON ((0 0, 1 0, 1 1, 0 0))\"\n", "line 2 holds WKT");
+  expect_refusal("b.csv", "WKT\n\"POLYGON ((0 0, 1 0, 1 1, 0 0))\"\n", "line 2 holds WKT");
 }
 
 TEST_F(Read, CsvWithTwiceAsManyFieldsAsNamesIsRefused) {

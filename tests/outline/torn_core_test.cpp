@@ -69,7 +69,7 @@ TEST(TornCore, IsTakenOffToTheBorderOfTheFace) {
   ASSERT_EQ(found.pieces.size(), 1U);
   EXPECT_LT(off_circle(found.pieces[0], kFace), 0.8) << "less than two pixels of it may stay";
   ASSERT_EQ(found.notes.size(), 1U);
-  EXPECT_NE(found.notes[0].find("white core"), std::string::npos) << found.notes[0];
+  EXPECT_NE(found.notes[0].find("the core of printed paper"), std::string::npos) << found.notes[0];
 }
 
 TEST(TornCore, IsTakenOffOfItsOwnPieceAlone) {
@@ -140,6 +140,31 @@ TEST(TornCore, IsTakenOffBeforeABackgroundFromThePrintsAlone) {
   for (glm::dvec2& p : white.points) p.x -= 400.0;
   EXPECT_LT(off_circle(white, kFace), 0.5);
   ASSERT_EQ(found.notes.size(), 1U) << found.notes.back();
+}
+
+// A white plate with a coloured band: what lies at the border of a piece may be white though its middle is not.
+TEST(TornCore, IsNoneWhereTheOtherPiecesFacesAreWhite) {
+  const Colour banded = [](const glm::dvec2& p) { return p.x < 60.0 ? kWhite : photograph(p); };
+  const cv::Mat shows = paper(photograph, torn(8.0));
+  cv::Mat both;
+  cv::hconcat(shows, paper(banded, [](double) { return 0.0; }), both);
+  const Extraction found = extracted(both);
+  ASSERT_EQ(found.pieces.size(), 2U);
+  const Outline& left = found.pieces[found.pieces[0].points[0].x < 400.0 ? 0 : 1];
+  EXPECT_GT(off_circle(left, kFace), 7.5) << "nothing is taken off";
+  EXPECT_TRUE(found.notes.empty());
+}
+
+TEST(TornCore, IsNoneOfOnePieceAmongMany) {
+  cv::Mat row = paper(photograph, torn(8.0));
+  const cv::Mat plain = paper(photograph, [](double) { return 0.0; });
+  for (int k = 0; k < 4; ++k) cv::hconcat(row, plain, row);
+  const Extraction found = extracted(row);
+  ASSERT_EQ(found.pieces.size(), 5U);
+  const auto first =
+      std::ranges::find_if(found.pieces, [](const Outline& o) { return o.points[0].x < 400.0; });
+  EXPECT_GT(off_circle(*first, kFace), 7.5);
+  EXPECT_TRUE(found.notes.empty());
 }
 
 }  // namespace

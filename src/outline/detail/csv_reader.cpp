@@ -21,8 +21,9 @@ namespace {
 
 constexpr std::string_view kSeparators = ",; \t\r";
 constexpr std::string_view kBlanks = " \t";
-constexpr std::array<std::string_view, 5> kNamesOfX = {"x", "lon", "long", "longitude", "easting"};
-constexpr std::array<std::string_view, 4> kNamesOfY = {"y", "lat", "latitude", "northing"};
+constexpr std::array<std::string_view, 8> kNamesOfX = {"x",       "lon", "long",   "longitude",
+                                                       "easting", "col", "column", "rechtswert"};
+constexpr std::array<std::string_view, 6> kNamesOfY = {"y", "lat", "latitude", "northing", "row", "hochwert"};
 constexpr std::array<std::string_view, 13> kNamesOfPieces = {
     "piece",   "fragment", "sherd", "part",  "object", "outline", "contour",
     "polygon", "name",     "label", "group", "id",     "roi"};
@@ -99,8 +100,9 @@ std::optional<Columns> named_columns(std::string_view line) {
   return columns;
 }
 
-/// Whether a column called y says that it points down, as in pictures: "y_down".
+/// Whether a column called y says that it points down, as in pictures: "y_down", or counts rows.
 bool points_down(std::string_view cell) {
+  if (name_of(cell) == "row") return true;
   constexpr std::string_view kDown = "y_down";
   return std::ranges::equal(cell.substr(0, kDown.size()), kDown,
                             [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
@@ -136,7 +138,8 @@ bool has_decimal_commas_between_blanks(std::string_view line) {
 }
 
 /// A line with points in place of decimal commas.  A semicolon, or in a table of has_decimal_commas_between_blanks() these, part the
-/// columns, so a comma between two digits that is the only one of its column is no separator.
+/// columns, so a comma between two digits that is the only one of its column is no separator.  Where semicolons part them, words in quotes
+/// keep theirs.
 /// \return nullopt: what the commas mean is open
 std::optional<std::string> with_points(std::string_view line, bool blanks_part) {
   std::string text(line);
@@ -144,9 +147,11 @@ std::optional<std::string> with_points(std::string_view line, bool blanks_part) 
   if (!semicolons && !blanks_part) return text;
   const std::string_view parting = semicolons ? ";" : kBlanks;
   std::size_t commas = 0;
+  bool quoted = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '"') quoted = !quoted;
     if (parting.find(text[i]) != std::string_view::npos) commas = 0;
-    if (text[i] != ',') continue;
+    if (text[i] != ',' || (semicolons && quoted)) continue;
     if (++commas > 1 || i == 0 || !is_digit(text, i - 1) || !is_digit(text, i + 1)) return std::nullopt;
     text[i] = '.';
   }
@@ -184,7 +189,7 @@ std::string without_quotes(std::string_view line) {
                          is_digit(field, comma + 1) &&
                          field.find_first_of(",.", comma + 1) == std::string::npos;
     if (decimal) field[comma] = '.';
-    const bool thousands = comma != std::string::npos && !decimal;
+    const bool thousands = comma != std::string::npos && !decimal;  // or words
     text.append(line.substr(0, open)).append(thousands ? line.substr(open, shut + 1 - open) : field);
     line.remove_prefix(shut + 1);
   }
@@ -232,6 +237,10 @@ class CsvReader {
     const auto plain = with_points(line, blanks_part_);
     const auto point = plain ? parse_point(*plain, columns_) : std::nullopt;
     if (!point && first && !take_number(line)) return take_names(whole);
+    if (!point && line.find("POLYGON") != std::string_view::npos) {
+      throw InputError(path_, fmt::format("line {} holds WKT (\"POLYGON ...\"), which is not read", number),
+                       "export the outlines as GeoJSON, or write \"x,y\" in each line");
+    }
     if (!plain) {
       throw InputError(path_,
                        fmt::format("line {} has commas that may be decimal ones or part columns", number),

@@ -159,8 +159,9 @@ double evidence_of(double score) {
 }
 
 LinkedPieces link_pieces(const std::vector<Piece>& pieces, const std::vector<PairResult>& pairs,
-                         const AssemblyOptions& options) {
+                         const AssemblyOptions& options, NamesOfPairs alike) {
   LinkedPieces result;
+  result.alike = std::move(alike);
   result.step = fitting_step(pieces, pairs, options);
   result.tolerance = kTolerance * result.step;
   result.shapes = silhouettes(pieces, result.step);

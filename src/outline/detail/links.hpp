@@ -1,7 +1,10 @@
 /// The joins that an assembly may use.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "outline/assembly.hpp"
@@ -30,6 +33,9 @@ struct Link {
 /// over candidates of several pairs that agree.
 double evidence_of(double score);
 
+/// Pairs of pieces, (a, b) with a < b.
+using NamesOfPairs = std::set<std::pair<std::size_t, std::size_t>>;
+
 /// Pieces and their links at one scale.
 struct LinkedPieces {
   double step = 0.0;                                ///< of the scale, file units
@@ -38,14 +44,18 @@ struct LinkedPieces {
   std::vector<double> perimeters;                   ///< of the outer borders, one a piece, file units
   std::vector<Link> links;                          ///< sorted by a, then b
   std::vector<std::vector<std::size_t>> likely_of;  ///< for every piece those that may be rivals, indices
+  NamesOfPairs alike;                               ///< that are congruent(): mostly two scans of one piece
+
+  bool are_alike(std::size_t a, std::size_t b) const { return alike.count(std::minmax(a, b)) != 0; }
 };
 
 /// Measures the candidates of all pairs at that one of options.samples at which the best of them say most.  Those that
 /// overlap or say nothing are left out.
 /// \param pieces  at least one
 /// \param pairs   results for (0, 1), (0, 2) .. (0, n - 1), (1, 2) ..
+/// \param alike   pairs that are congruent()
 LinkedPieces link_pieces(const std::vector<Piece>& pieces, const std::vector<PairResult>& pairs,
-                         const AssemblyOptions& options);
+                         const AssemblyOptions& options, NamesOfPairs alike);
 
 /// Adds the candidates of a second search, measured at the same scale and believed less.
 /// \return whether there are such

@@ -48,7 +48,7 @@ Stretch stretch_on(const Link& link, std::size_t piece, const LinkedPieces& piec
 
 using IsNone = std::function<bool(const Link& other)>;
 
-/// Links that ask for a link's border: the best score of each piece on either of the link's.
+/// Links that ask for a link's border: the best score of each piece on either of the link's, but of other scans of the link's pieces.
 std::map<std::pair<std::size_t, std::size_t>, double> best_rivals(const Link& link,
                                                                   const LinkedPieces& pieces,
                                                                   const IsNone& is_none) {
@@ -56,10 +56,14 @@ std::map<std::pair<std::size_t, std::size_t>, double> best_rivals(const Link& li
   const auto same_at = [&](const Link& other, std::size_t at) {
     return same_border(stretch_on(link, at, pieces), stretch_on(other, at, pieces));
   };
+  const bool one_shape = pieces.are_alike(link.a, link.b);  // as cards are cut
   for (const std::size_t at : {link.a, link.b}) {
+    const std::size_t beside = at == link.a ? link.b : link.a;
     for (const std::size_t k : pieces.likely_of[at]) {
       const Link& other = pieces.links[k];
       if (is_none(other) || !same_at(other, at)) continue;
+      // Another scan of a piece asks for its place, not for another one's.
+      if (!one_shape && pieces.are_alike(beside, other.a == at ? other.b : other.a)) continue;
       const bool is_told = at == link.b && other.a == link.a && other.b == link.b && same_at(other, link.a);
       if (is_told) continue;
       double& score = best[{other.a == at ? other.b : other.a, at}];

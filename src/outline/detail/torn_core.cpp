@@ -28,8 +28,10 @@ constexpr double kWidestOfDepth = 0.25;  // of what a pixel can be inside at mos
 constexpr double kCornerReach = 1.5;     // discs within a right corner leave 0.41 of their radius of it free
 // Quartiles of the core's depth lie apart by this share of its median: a margin is even.
 constexpr double kUneven = 0.15;
-constexpr int kLeastPixels = 1000;  // of a piece that is looked at
-constexpr int kBeside = 7;          // pixels across, in which the face's colour is looked for beside the core
+constexpr int kLeastPixels = 1000;      // of a piece that is looked at
+constexpr std::size_t kManyPieces = 5;  // pieces of torn print, of which
+constexpr double kLeastOfMany = 0.25;   // or more show core: of a sheet torn into ten 9 did
+constexpr int kBeside = 7;  // pixels across, in which the face's colour is looked for beside the core
 constexpr float kLeastContrast = 0.12F;
 
 cv::Vec3f colour_at(const cv::Mat& image, int y, int x) {
@@ -116,20 +118,34 @@ cv::Mat core_among(const cv::Mat& mask, const cv::Mat& rim, const cv::Mat& depth
   return result;
 }
 
+/// How far each pixel is off a colour.
+cv::Mat off_colour(const cv::Mat& image, const cv::Vec3f& colour) {
+  cv::Mat off(image.size(), CV_32F);
+  for (int y = 0; y < image.rows; ++y)
+    for (int x = 0; x < image.cols; ++x) off.at<float>(y, x) = distance(colour_at(image, y, x), colour);
+  return off;
+}
+
+/// The widest that a piece's core may be, pixels.
+double widest_core(const cv::Mat& piece, const cv::Mat& depth) {
+  double deepest = 0.0;
+  cv::minMaxLoc(depth, nullptr, &deepest);
+  return std::min(kWidest * std::sqrt(static_cast<double>(cv::countNonZero(piece))),
+                  kWidestOfDepth * deepest);
+}
+
+cv::Mat rim_of(const cv::Mat& depth) {
+  return (depth > kRimFrom) & (depth < kRimTo);
+}
+
 /// \param piece  CV_8U, the pixels of one piece   \return whether core was taken off
 bool take_off_one(const cv::Mat& image, const cv::Mat& piece, cv::Mat field) {
   const cv::Mat depth = depth_in(piece);
-  const cv::Mat rim = (depth > kRimFrom) & (depth < kRimTo);
+  const cv::Mat rim = rim_of(depth);
   const std::optional<cv::Vec3f> core = colour_of_core(image, rim);
   if (!core) return false;
-  cv::Mat off(image.size(), CV_32F);
-  for (int y = 0; y < image.rows; ++y)
-    for (int x = 0; x < image.cols; ++x) off.at<float>(y, x) = distance(colour_at(image, y, x), *core);
-
-  double deepest = 0.0;
-  cv::minMaxLoc(depth, nullptr, &deepest);
-  const double widest =
-      std::min(kWidest * std::sqrt(static_cast<double>(cv::countNonZero(piece))), kWidestOfDepth * deepest);
+  cv::Mat off = off_colour(image, *core);
+  const double widest = widest_core(piece, depth);
   const cv::Mat alike = (off < kSame) & piece;
   const cv::Mat narrow = narrow_parts(alike, widest);
   const cv::Mat inside = depth > 2.0 * widest;
@@ -163,22 +179,65 @@ bool take_off_one(const cv::Mat& image, const cv::Mat& piece, cv::Mat field) {
   return true;
 }
 
+/// A piece in a picture.
+struct PieceAt {
+  int label;
+  cv::Rect box;
+};
+
+/// Whether the faces of the pieces with some white along their border are together as white as what may be core: a small piece of a white plate
+/// need not show it.  Blank sheets, all white, say nothing of prints beside them.
+bool are_white(const cv::Mat& image, const cv::Mat& labels, const std::vector<PieceAt>& pieces) {
+  std::array<std::vector<float>, 3> channels;
+  for (const PieceAt& piece : pieces) {
+    const cv::Mat depth = depth_in(labels(piece.box) == piece.label);
+    const auto core = colour_of_core(image(piece.box), rim_of(depth));
+    for (std::size_t c = 0; core && c < 3; ++c) channels[c].push_back((*core)[static_cast<int>(c)]);
+  }
+  if (channels[0].empty()) return false;
+  const cv::Vec3f white(median(channels[0]), median(channels[1]), median(channels[2]));
+  int all = 0;
+  int alike = 0;
+  for (const PieceAt& piece : pieces) {
+    const cv::Mat mask = labels(piece.box) == piece.label;
+    const cv::Mat depth = depth_in(mask);
+    const cv::Mat inside = depth > 2.0 * widest_core(mask, depth);
+    const cv::Mat same = off_colour(image(piece.box), white) < kSame;
+    const double along = share_of(same, rim_of(depth));
+    if (along < kLeastRim || along > kMostRim) continue;
+    all += cv::countNonZero(inside);
+    alike += cv::countNonZero(same & inside);
+  }
+  return all > 0 && static_cast<double>(alike) > kMostWhite * static_cast<double>(all);
+}
+
 }  // namespace
 
-bool take_off_core(const cv::Mat& image, cv::Mat& field) {
+std::vector<cv::Rect> take_off_core(const cv::Mat& image, cv::Mat& field) {
   cv::Mat labels;
   cv::Mat boxes;
   cv::Mat centres;
   const int count = cv::connectedComponentsWithStats(field > 0.5F, labels, boxes, centres, 8, CV_32S);
-  bool some = false;
+  std::vector<PieceAt> pieces;
   for (int k = 1; k < count; ++k) {
     if (boxes.at<int>(k, cv::CC_STAT_AREA) < kLeastPixels) continue;
     const cv::Rect box(boxes.at<int>(k, cv::CC_STAT_LEFT) - 1, boxes.at<int>(k, cv::CC_STAT_TOP) - 1,
                        boxes.at<int>(k, cv::CC_STAT_WIDTH) + 2, boxes.at<int>(k, cv::CC_STAT_HEIGHT) + 2);
-    const cv::Rect within = box & cv::Rect({0, 0}, field.size());
-    some = take_off_one(image(within), labels(within) == k, field(within)) || some;
+    pieces.push_back({k, box & cv::Rect({0, 0}, field.size())});
   }
-  return some;
+  if (are_white(image, labels, pieces)) return {};
+  const cv::Mat before = field.clone();
+  std::vector<cv::Rect> taken;
+  for (const PieceAt& piece : pieces) {
+    if (take_off_one(image(piece.box), labels(piece.box) == piece.label, field(piece.box)))
+      taken.push_back(piece.box);
+  }
+  if (pieces.size() >= kManyPieces &&
+      kLeastOfMany * static_cast<double>(pieces.size()) > static_cast<double>(taken.size())) {
+    field = before;
+    return {};
+  }
+  return taken;
 }
 
 }  // namespace rejoin::outline::detail
