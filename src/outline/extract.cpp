@@ -62,6 +62,9 @@ constexpr double kLargestSpeck = 400.0;
 constexpr double kDoubtfulDust = 0.1;
 /// A hole with no more of the piece between it and the outside is a bay whose mouth closed in the picture, pixels.
 constexpr double kMouth = 4.0;
+/// A line around paper covers at most this share of what it encloses, and is at most this wide, pixels.
+constexpr double kLineArea = 0.2;
+constexpr double kLineWidth = 12.0;
 /// A piece that is so many times as wide as its neck may be two.
 constexpr double kDoubtfulNeck = 4.0;
 
@@ -325,6 +328,38 @@ bool is_closed_bay(const Polygon& hole, const std::vector<Polygon>& outer) {
   return false;
 }
 
+/// Whether a piece is a line around what is inside it, as of a tracing.
+bool is_drawn(const Outline& piece) {
+  const double whole = signed_area(piece.points);
+  double line = whole;
+  double length = perimeter(piece.points);
+  for (const Polygon& hole : piece.holes) {
+    line += signed_area(hole);
+    length += perimeter(hole);
+  }
+  return line < kLineArea * whole && line < 0.5 * kLineWidth * length;
+}
+
+/// Takes what drawn lines enclose for the pieces if most are such, without what is drawn on them, and tells it.
+void fill_drawn(std::vector<Outline>& pieces, std::vector<std::string>& notes) {
+  const auto drawn = static_cast<std::size_t>(std::ranges::count_if(pieces, is_drawn));
+  if (2 * drawn <= pieces.size()) return;
+  std::vector<Outline> filled;
+  std::vector<std::size_t> lines;  // of these
+  for (Outline& piece : pieces) {  // largest first
+    const auto encloses = [&](std::size_t k) { return contains(filled[k].points, piece.points[0]); };
+    if (std::ranges::any_of(lines, encloses)) continue;
+    if (is_drawn(piece)) {
+      piece.holes.clear();
+      lines.push_back(filled.size());
+    }
+    filled.push_back(std::move(piece));
+  }
+  pieces = std::move(filled);
+  notes.push_back(fmt::format("{} drawn with a line: what it encloses is taken for the piece",
+                              drawn == 1 ? "1 piece is" : fmt::format("{} pieces are", drawn)));
+}
+
 /// Takes hairs and loose threads off the pieces, and tells it.
 void drop_threads(cv::Mat& field, std::vector<std::string>& notes) {
   const std::vector<detail::Thread> threads = detail::take_off_threads(field);
@@ -411,6 +446,7 @@ Extraction extract(const std::string& path, const ExtractOptions& options) {
     result.pieces.push_back(std::move(outline));
   }
   assign_holes(loops.holes, result.pieces);
+  fill_drawn(result.pieces, result.notes);
   return result;
 }
 

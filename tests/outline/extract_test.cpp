@@ -176,6 +176,24 @@ TEST(Extract, ShadowIsNoPartOfThePiece) {
   expect_disc(found.pieces[0], 1.0);
 }
 
+// As dark as the shadow that it casts, with no edge between the two: only its size tells it from more shadow.
+TEST(Extract, PieceOfTheShadowsColourIsNoShadow) {
+  const Folder folder;
+  const cv::Vec3d lid(0.9, 0.9, 0.9);
+  cv::Mat image = shadowed_disc(lid, 0.01);
+  cv::hconcat(image, shadowed_disc(lid, 0.01), image);
+  cv::hconcat(image, shadowed_disc(lid, 0.01, {0.6, 0.6, 0.6}), image);
+  cv::imwrite(folder.file("three.png"), image);
+  const Extraction found = extract(folder.file("three.png"));
+  ASSERT_EQ(found.pieces.size(), 3U);
+  const double whole = signed_area(found.pieces[0].points);
+  for (const Outline& piece : found.pieces) {
+    double area = signed_area(piece.points);
+    for (const auto& hole : piece.holes) area += signed_area(hole);
+    EXPECT_GT(area, 0.85 * whole);
+  }
+}
+
 TEST(Extract, ShadowOfPaperOnADarkTableIsNoPartOfIt) {
   const Folder folder;
   cv::imwrite(folder.file("shadow.png"), shadowed_disc({0.14, 0.17, 0.2}, 0.0, {0.85, 0.9, 0.92}, 0.7));
@@ -246,6 +264,28 @@ TEST(Extract, HolesAreKeptAndDustIsNot) {
 }
 
 // As many pieces as fill a scan are each a small part of it, whatever they are: letters and specks have few pixels, too.
+// Tracings of pieces; what is drawn on one is none.
+TEST(Extract, WhatDrawnLinesEncloseIsThePiece) {
+  const Folder folder;
+  cv::Mat paper(300, 700, CV_8UC3, cv::Scalar(250, 250, 250));
+  cv::circle(paper, {150, 150}, 100, cv::Scalar(30, 30, 30), 3, cv::LINE_AA);
+  cv::circle(paper, {450, 150}, 120, cv::Scalar(30, 30, 30), 3, cv::LINE_AA);
+  cv::line(paper, {420, 130}, {480, 160}, cv::Scalar(30, 30, 30), 6, cv::LINE_AA);
+  cv::imwrite(folder.file("tracing.png"), paper);
+  const Extraction found = extract(folder.file("tracing.png"), {.dust = 0.1});
+  ASSERT_EQ(found.pieces.size(), 2U);
+  EXPECT_TRUE(found.pieces[0].holes.empty());
+  EXPECT_NEAR(signed_area(found.pieces[0].points) / (M_PI * 121.5 * 121.5), 1.0, 0.03);
+  EXPECT_TRUE(std::ranges::any_of(found.notes, [](const std::string& note) {
+    return note == "2 pieces are drawn with a line: what it encloses is taken for the piece";
+  }));
+  cv::circle(paper, {150, 150}, 80, cv::Scalar(30, 30, 30), 40, cv::LINE_AA);
+  cv::circle(paper, {450, 150}, 95, cv::Scalar(30, 30, 30), 50, cv::LINE_AA);
+  cv::imwrite(folder.file("rings.png"), paper);
+  const Extraction rings = extract(folder.file("rings.png"));
+  EXPECT_FALSE(rings.pieces.at(0).holes.empty()) << "a ring is one";
+}
+
 TEST(Extract, ManySmallPiecesAreDoubtedAndManyLargeOnesAreNot) {
   const Folder folder;
   for (const int side : {60, 270}) {

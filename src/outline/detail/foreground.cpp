@@ -1,6 +1,7 @@
 #include "outline/detail/foreground.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <opencv2/imgproc.hpp>
@@ -50,6 +51,13 @@ constexpr double kPaperShare = 0.2;
 constexpr float kHueBin = 0.005F;
 constexpr int kNoHue = 24;  // the bin in the middle
 constexpr int kHueBins = 2 * kNoHue + 1;
+
+/// A shadow reaches at most this many times as far as this share of shadows does,
+constexpr double kFarther = 1.5;
+constexpr double kMostEnd = 0.75;
+/// and discs in it have a radius of at most this share of that, and of the largest piece's size.
+constexpr double kWideShade = 0.5;
+constexpr double kShadeOfPiece = 0.06;
 
 /// Print on paper before a light background leaves less than this share of the light.  Between it and lighter paper a seam has the
 /// background's own light: what is this near to both, pixels, where no more than kMouth pixels are open.
@@ -155,6 +163,65 @@ cv::Mat shades(const Background& background, const cv::Mat& image, const cv::Mat
   cv::morphologyEx(result, result, cv::MORPH_OPEN,
                    block);  // no leaks through a pixel or two of a piece's border
   return result;
+}
+
+/// The root of the largest part's area, pixels.
+double largest_size(const cv::Mat& mask) {
+  cv::Mat labels;
+  cv::Mat stats;
+  cv::Mat centres;
+  const int count = cv::connectedComponentsWithStats(mask, labels, stats, centres);
+  int most = 0;
+  for (int k = 1; k < count; ++k) most = std::max(most, stats.at<int>(k, cv::CC_STAT_AREA));
+  return std::sqrt(most);
+}
+
+/// How far what is shaded lies from bare background by a way through shade alone, pixels: steps to four and to eight neighbours take turns.
+cv::Mat way_through(const cv::Mat& shaded, const cv::Mat& bare) {
+  constexpr std::array<std::pair<int, int>, 8> kBeside{
+      {{0, 1}, {1, 0}, {0, -1}, {-1, 0}, {1, 1}, {1, -1}, {-1, -1}, {-1, 1}}};
+  cv::Mat way(shaded.size(), CV_32F, cv::Scalar(0.0));
+  const cv::Rect frame({0, 0}, shaded.size());
+  cv::Mat rim;
+  cv::dilate(shaded, rim, cv::Mat());
+  std::vector<cv::Point> front;
+  cv::findNonZero(rim & bare, front);
+  for (int steps = 1; !front.empty(); ++steps) {
+    std::vector<cv::Point> next;
+    for (const cv::Point& from : front) {
+      for (std::size_t k = 0; k < (steps % 2 == 0 ? 8U : 4U); ++k) {
+        const cv::Point to(from.x + kBeside[k].first, from.y + kBeside[k].second);
+        if (!frame.contains(to) || shaded.at<uchar>(to) == 0 || way.at<float>(to) != 0.0F) continue;
+        way.at<float>(to) = static_cast<float>(steps);
+        next.push_back(to);
+      }
+    }
+    front = std::move(next);
+  }
+  return way;
+}
+
+/// How far from bare background shadows reach where they end at pieces, most of them.
+double reach_of_shadows(const cv::Mat& shaded, const cv::Mat& lit, const cv::Mat& reach) {
+  cv::Mat ends;
+  cv::dilate(lit, ends, cv::Mat());
+  ends &= shaded;
+  std::vector<float> distances;
+  for (int y = 0; y < shaded.rows; ++y)
+    for (int x = 0; x < shaded.cols; ++x)
+      if (ends.at<uchar>(y, x) != 0) distances.push_back(reach.at<float>(y, x));
+  return distances.empty() ? 0.0 : static_cast<double>(quantile(distances, kMostEnd));
+}
+
+/// What counts as shaded, but lies farther from bare background than shadows do in this picture, is wide and goes on in what is lit: the
+/// inside of a piece of the background's hue.  Between near pieces all may be shaded, far along the gap, but that is narrow.
+cv::Mat hue_of_background(const cv::Mat& shaded, const cv::Mat& lit, const cv::Mat& bare) {
+  const cv::Mat reach = way_through(shaded, bare);
+  const double farther = kFarther * reach_of_shadows(shaded, lit, reach);
+  const double widest = std::max(kWideShade * farther, kShadeOfPiece * largest_size(lit));
+  cv::Mat width;
+  cv::distanceTransform(shaded, width, cv::DIST_L2, cv::DIST_MASK_5);
+  return touching(touching(shaded & (reach > farther), width > widest), lit);
 }
 
 /// What has no more light than the background in any channel.
@@ -267,11 +334,12 @@ Foreground foreground(const Background& background, const cv::Mat& image, double
   const cv::Mat bare = distance < least;
   const cv::Mat shaded = touching(shades(background, smooth, distance, paper), bare);
   const cv::Mat all = ~bare;
+  const cv::Mat dim = darker(background, smooth);
   cv::Mat lit = all & ~shaded;
   lit |= seams_of_print(background, smooth, lit);
-  const cv::Mat dim = darker(background, smooth);
   if (!paper && cv::countNonZero(lit) < kLeastLeft * cv::countNonZero(all))
     return {all, cv::Mat::zeros(all.size(), CV_8U), dim};
+  lit |= hue_of_background(shaded, lit, bare);
   return {lit, shaded & ~lit, dim};
 }
 
