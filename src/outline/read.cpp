@@ -195,18 +195,12 @@ std::optional<double> units_an_inch(const fs::path& file) {
 /// What a file tells, with its name.
 using Told = std::pair<double, std::string>;
 
-/// The least and the most of what files tell; nullopt: none tells any.
-std::optional<std::pair<Told, Told>> told_by(const std::vector<std::string>& files) {
-  std::optional<std::pair<Told, Told>> range;
-  for (const fs::path file : files) {
-    const auto units = units_an_inch(file);
-    if (!units) continue;
-    const Told told(*units, file.filename().string());
-    if (!range) range.emplace(told, told);
-    if (told.first < range->first.first) range->first = told;
-    if (told.first > range->second.first) range->second = told;
-  }
-  return range;
+/// What those of the files tell that tell any.
+std::vector<Told> told_by(const std::vector<std::string>& files) {
+  std::vector<Told> all;
+  for (const fs::path file : files)
+    if (const auto units = units_an_inch(file)) all.emplace_back(*units, file.filename().string());
+  return all;
 }
 
 bool agree(const Told& least, const Told& most) {
@@ -218,18 +212,29 @@ std::optional<double> told_resolution(const std::vector<Piece>& pieces) {
   std::vector<std::string> files;
   for (const Piece& piece : pieces)
     if (files.empty() || files.back() != piece.path) files.push_back(piece.path);
-  const auto range = told_by(files);
-  return range && agree(range->first, range->second) ? std::optional(range->first.first) : std::nullopt;
+  const std::vector<Told> all = told_by(files);
+  if (all.empty()) return std::nullopt;
+  const auto [least, most] = std::ranges::minmax(all);
+  return agree(least, most) ? std::optional(least.first) : std::nullopt;
 }
 
 std::optional<std::string> doubt_resolutions(const std::vector<std::string>& files) {
-  const auto range = told_by(files);
-  if (!range || agree(range->first, range->second)) return std::nullopt;
-  const auto& [least, most] = *range;
+  constexpr std::size_t kNamed = 6;
+  const std::vector<Told> all = told_by(files);
+  if (all.empty()) return std::nullopt;
+  const auto [least, most] = std::ranges::minmax(all);
+  if (agree(least, most)) return std::nullopt;
+  std::vector<Told> finer;
+  std::ranges::copy_if(all, std::back_inserter(finer), [&](const Told& told) { return !agree(least, told); });
+  std::string scales;
+  for (std::size_t k = 0; k < std::min(finer.size(), kNamed); ++k)
+    scales += fmt::format("{}{} to {:.4g} %", k > 0 ? ", " : "", finer[k].second,
+                          100.0 * least.first / finer[k].first);
+  if (finer.size() > kNamed) scales += fmt::format(", and {} more", finer.size() - kNamed);
   return fmt::format(
-      "{} says that it has {:.5g} dots or units an inch, {} {:.5g}: pieces fit only at one resolution, so "
-      "scale the files to one if that is so",
-      most.second, most.first, least.second, least.first);
+      "{} says that it has {:.5g} dots or units an inch, {} {:.5g}: pieces fit only at one resolution, so if "
+      "that is so, scale {}",
+      most.second, most.first, least.second, least.first, scales);
 }
 
 std::optional<std::string> doubt_axes(const std::vector<Piece>& pieces) {

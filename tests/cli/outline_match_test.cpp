@@ -264,6 +264,7 @@ TEST(OutlineMatch, PicturesOfDifferentResolutionsAreTold) {
   EXPECT_NE(told.err.find("fine.tif says that it has 600 dots or units an inch, coarse.tif 300"),
             std::string::npos)
       << told.err;
+  EXPECT_NE(told.err.find("so if that is so, scale fine.tif to 50 %"), std::string::npos) << told.err;
   const Finished same = run({"outline", "match", fine, write("same.tif", 600)});
   EXPECT_EQ(same.err.find("dots"), std::string::npos) << same.err;
 }
