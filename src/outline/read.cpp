@@ -222,7 +222,8 @@ std::optional<std::string> doubt_resolutions(const std::vector<std::string>& fil
   constexpr std::size_t kNamed = 6;
   const std::vector<Told> all = told_by(files);
   if (all.empty()) return std::nullopt;
-  const auto [least, most] = std::ranges::minmax(all);
+  const Told least = std::ranges::min(all);
+  const Told most = std::ranges::max(all);
   if (agree(least, most)) return std::nullopt;
   std::vector<Told> finer;
   std::ranges::copy_if(all, std::back_inserter(finer), [&](const Told& told) { return !agree(least, told); });
