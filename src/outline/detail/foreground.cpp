@@ -216,12 +216,16 @@ double reach_of_shadows(const cv::Mat& shaded, const cv::Mat& lit, const cv::Mat
 /// What counts as shaded, but lies farther from bare background than shadows do in this picture, is wide and goes on in what is lit: the
 /// inside of a piece of the background's hue.  Between near pieces all may be shaded, far along the gap, but that is narrow.
 cv::Mat hue_of_background(const cv::Mat& shaded, const cv::Mat& lit, const cv::Mat& bare) {
-  const cv::Mat reach = way_through(shaded, bare);
+  if (cv::countNonZero(shaded) == 0) return shaded;
+  cv::Mat reach = way_through(shaded, bare);
   const double farther = kFarther * reach_of_shadows(shaded, lit, reach);
+  const cv::Mat beyond = shaded & (reach > farther);
+  reach.release();  // of large pictures gigabytes
+  if (cv::countNonZero(beyond) == 0) return beyond;
   const double widest = std::max(kWideShade * farther, kShadeOfPiece * largest_size(lit));
   cv::Mat width;
   cv::distanceTransform(shaded, width, cv::DIST_L2, cv::DIST_MASK_5);
-  return touching(touching(shaded & (reach > farther), width > widest), lit);
+  return touching(touching(beyond, width > widest), lit);
 }
 
 /// What has no more light than the background in any channel.
