@@ -219,7 +219,7 @@ cv::Mat hue_of_background(const cv::Mat& shaded, const cv::Mat& lit, const cv::M
   if (cv::countNonZero(shaded) == 0) return shaded;
   cv::Mat reach = way_through(shaded, bare);
   const double farther = kFarther * reach_of_shadows(shaded, lit, reach);
-  const cv::Mat beyond = shaded & (reach > farther);
+  cv::Mat beyond = shaded & (reach > farther);
   reach.release();  // of large pictures gigabytes
   if (cv::countNonZero(beyond) == 0) return beyond;
   const double widest = std::max(kWideShade * farther, kShadeOfPiece * largest_size(lit));
