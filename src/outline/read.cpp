@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <exception>
+#include <iterator>
 #include <filesystem>
 #include <map>
 #include <new>
@@ -297,7 +298,6 @@ struct Listing {
   std::vector<std::string> results;            ///< names of pictures that are written as results
 };
 
-/// \throws IoError, InputError as read_folder()
 /// What a folder has instead of pieces.
 std::string told_skipped(std::vector<std::string> names) {
   if (names.empty()) return "";
@@ -306,6 +306,7 @@ std::string told_skipped(std::vector<std::string> names) {
   return fmt::format(", but {} and {}", first, counted(names.size() - 1, "other file"));
 }
 
+/// \throws IoError, InputError as read_folder()
 Listing list_folder(const std::string& folder) {
   std::error_code problem;
   Listing list;

@@ -263,7 +263,6 @@ TEST(Extract, HolesAreKeptAndDustIsNot) {
   EXPECT_TRUE(found.pieces[1].holes.empty());
 }
 
-// As many pieces as fill a scan are each a small part of it, whatever they are: letters and specks have few pixels, too.
 // Tracings of pieces; what is drawn on one is none.
 TEST(Extract, WhatDrawnLinesEncloseIsThePiece) {
   const Folder folder;
@@ -286,6 +285,7 @@ TEST(Extract, WhatDrawnLinesEncloseIsThePiece) {
   EXPECT_FALSE(rings.pieces.at(0).holes.empty()) << "a ring is one";
 }
 
+// As many pieces as fill a scan are each a small part of it, whatever they are: letters and specks have few pixels, too.
 TEST(Extract, ManySmallPiecesAreDoubtedAndManyLargeOnesAreNot) {
   const Folder folder;
   for (const int side : {60, 270}) {
