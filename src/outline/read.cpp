@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <exception>
-#include <iterator>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <new>
 #include <optional>
